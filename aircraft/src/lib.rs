@@ -1,0 +1,1 @@
+//! The aircraft's data, and its reader.

@@ -1,0 +1,136 @@
+//! Aerodynamics of the airframe: one block per component.
+
+pub mod fuselage;
+pub mod horizontal_stabilizer;
+pub mod vertical_stabilizers;
+pub mod wing_pylon;
+
+use crate::frames::{Body, Load, Structural, Vec3};
+use crate::math::{FRAC_PI_2, atan2, clamp, cos, sin, sqrt, square};
+
+/// Least dynamic length, so that a standing aircraft divides by something, m/s.
+const SPEED_MPS_MIN: f64 = 1e-3;
+
+/// How the aircraft moves through the air: what every aerodynamic block reads.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion {
+    /// Centre of gravity.
+    pub cg_m: Vec3<Structural>,
+    /// Velocity of the centre of gravity through the air.
+    pub airspeed_mps: Vec3<Body>,
+    /// Angular rate of the body.
+    pub angular_rate_radps: Vec3<Body>,
+    /// ρ.
+    pub density_kg_per_m3: f64,
+}
+
+impl Motion {
+    /// Velocity through the air of a point of the body.
+    pub fn velocity_at(&self, from_cg_m: Vec3<Body>) -> Vec3<Body> {
+        self.airspeed_mps + self.angular_rate_radps.cross(from_cg_m)
+    }
+
+    /// Image in the plane of symmetry.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            airspeed_mps: self.airspeed_mps.mirrored(),
+            angular_rate_radps: self.angular_rate_radps.mirrored_axial(),
+            ..*self
+        }
+    }
+}
+
+/// Flow at a component: what its own motion and the rotors' wake make together.
+#[derive(Clone, Copy, Debug)]
+pub struct Flow {
+    /// α, in the plane of symmetry, from below positive.
+    pub alpha_rad: f64,
+    /// β, from the right positive.
+    pub beta_rad: f64,
+    /// ½ρV².
+    pub pressure_pa: f64,
+    /// V.
+    pub speed_mps: f64,
+}
+
+/// The flow that meets a component moving with `velocity_mps` through the air.
+pub fn flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> Flow {
+    let speed_mps = velocity_mps.norm();
+    let in_plane_mps = sqrt(square(velocity_mps.x) + square(velocity_mps.z));
+    Flow {
+        alpha_rad: atan2(velocity_mps.z, velocity_mps.x),
+        beta_rad: atan2(velocity_mps.y, in_plane_mps + SPEED_MPS_MIN),
+        pressure_pa: 0.5 * density_kg_per_m3 * square(speed_mps),
+        speed_mps,
+    }
+}
+
+/// A lifting surface at any angle: a line until the stall, a flat plate beyond.
+///
+/// Returns the lift and drag coefficients; drag without its induced part.
+fn surface(
+    lift_slope_per_rad: f64,
+    alpha_rad: f64,
+    stall_rad: f64,
+    drag_coefficient_min: f64,
+) -> (f64, f64) {
+    // From the stall to 10° beyond it the one becomes the other.
+    const FADE_RAD: f64 = 0.175;
+    const PLATE_LIFT: f64 = 1.1;
+    const PLATE_DRAG: f64 = 1.6;
+    let plate = clamp((alpha_rad.abs() - stall_rad) / FADE_RAD, 0.0, 1.0);
+    let line = lift_slope_per_rad * clamp(alpha_rad, -stall_rad, stall_rad);
+    let lift = line + plate * (PLATE_LIFT * sin(2.0 * alpha_rad) - line);
+    let drag = drag_coefficient_min + plate * PLATE_DRAG * square(sin(alpha_rad));
+    (lift, drag)
+}
+
+/// Lift and drag in body axes; side force along y.
+fn in_body_axes(lift_n: f64, drag_n: f64, side_n: f64, alpha_rad: f64) -> Vec3<Body> {
+    let (s, c) = (sin(alpha_rad), cos(alpha_rad));
+    Vec3::new(lift_n * s - drag_n * c, side_n, -lift_n * c - drag_n * s)
+}
+
+/// A pure pitching moment.
+fn pitching(moment_n_m: f64) -> Vec3<Body> {
+    Vec3::new(0.0, moment_n_m, 0.0)
+}
+
+/// Angle of attack brought to −π/2..π/2 by looking at the surface from behind where the flow does.
+fn from_behind(alpha_rad: f64) -> f64 {
+    if alpha_rad > FRAC_PI_2 {
+        alpha_rad - crate::math::PI
+    } else if alpha_rad < -FRAC_PI_2 {
+        alpha_rad + crate::math::PI
+    } else {
+        alpha_rad
+    }
+}
+
+/// A load at rest.
+fn load_at(force_n: Vec3<Body>, from_cg_m: Vec3<Body>, pitching_n_m: f64) -> Load {
+    Load::at(force_n, from_cg_m).with_moment(pitching(pitching_n_m))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_surface_is_odd_in_lift_and_even_in_drag() {
+        for alpha_rad in [0.05, 0.2, 0.3, 0.9, 1.5] {
+            let (lift, drag) = surface(5.0, alpha_rad, 0.25, 0.01);
+            let (mirrored, same) = surface(5.0, -alpha_rad, 0.25, 0.01);
+            assert_eq!(lift.to_bits(), (-mirrored).to_bits());
+            assert_eq!(drag.to_bits(), same.to_bits());
+        }
+    }
+
+    #[test]
+    fn lift_is_across_and_drag_along_the_flow() {
+        let force = in_body_axes(10.0, 1.0, 0.0, 0.1);
+        let along = Vec3::<Body>::new(cos(0.1), 0.0, sin(0.1));
+        assert!((force.dot(along) + 1.0).abs() < 1e-12);
+    }
+}

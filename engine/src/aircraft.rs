@@ -1,0 +1,60 @@
+//! The aircraft: the parameters of every block.
+
+use serde::Deserialize;
+
+use crate::aero::{fuselage, horizontal_stabilizer, vertical_stabilizers, wing_pylon};
+use crate::{actuators, cockpit, engines, fcc, landing_gear, rotors, weight_balance};
+
+/// All that a tilt-rotor is. Another tilt-rotor is other numbers, not another program.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Aircraft {
+    /// What it is called.
+    pub name: alloc::string::String,
+    /// Devices and what they move. Comes from its own file.
+    #[serde(skip)]
+    pub cockpit: cockpit::Params,
+    /// Flight control computer.
+    pub fcc: fcc::Params,
+    /// Actuators.
+    pub actuators: actuators::Params,
+    /// Mass, balance, inertia.
+    pub weight_balance: weight_balance::Params,
+    /// Both rotors.
+    pub rotors: rotors::Params,
+    /// Wing and pylons.
+    pub wing_pylon: wing_pylon::Params,
+    /// Fuselage.
+    pub fuselage: fuselage::Params,
+    /// Horizontal stabiliser.
+    pub horizontal_stabilizer: horizontal_stabilizer::Params,
+    /// Fins.
+    pub vertical_stabilizers: vertical_stabilizers::Params,
+    /// Engines and drive.
+    pub engines: engines::Params,
+    /// Landing gear.
+    pub landing_gear: landing_gear::Params,
+}
+
+impl Aircraft {
+    /// Where a table cannot be used, and why, if so.
+    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+        let mixer = &self.fcc.mixer;
+        let tables = [
+            ("fcc.mixer.collective_per_lever", mixer.collective_per_lever_rad_per_m.fault()),
+            (
+                "fcc.mixer.collective_per_lateral_stick",
+                mixer.collective_per_lateral_stick_rad_per_m.fault(),
+            ),
+            (
+                "fcc.mixer.cyclic_per_longitudinal_stick",
+                mixer.cyclic_per_longitudinal_stick_rad_per_m.fault(),
+            ),
+            ("fcc.mixer.cyclic_per_pedal", mixer.cyclic_per_pedal_rad_per_m.fault()),
+            ("fcc.governor.collective_min", self.fcc.governor.collective_rad_min.fault()),
+            ("actuators.nacelle", self.actuators.nacelle_radps.fault()),
+            ("engines.power_by_lever", self.engines.power_by_lever_norm.fault()),
+        ];
+        tables.into_iter().find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    }
+}

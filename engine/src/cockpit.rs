@@ -1,0 +1,354 @@
+//! Cockpit: raw device events to pilot controls.
+//!
+//! The map says which axis or button of which device moves what. Calibration, dead zone, curve and
+//! the meaning of every button are here, inside the step, so that the log needs to hold nothing but
+//! what the hardware said.
+//!
+//! # Signs
+//! Stick aft, stick right, right pedal, collective up, nacelles towards the helicopter are positive.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use serde::{Deserialize, Serialize};
+
+use crate::inputs::{DeviceEvent, EventKind};
+use crate::math::{clamp, sign};
+use crate::pair::Pair;
+
+/// What a device's axis can move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AxisControl {
+    /// Longitudinal stick, aft positive, −1..1.
+    StickAft,
+    /// Lateral stick, right positive, −1..1.
+    StickRight,
+    /// Power lever, 0..1.
+    Collective,
+    /// Pedals, right positive, −1..1.
+    PedalRight,
+    /// Left toe brake, 0..1.
+    BrakeLeft,
+    /// Right toe brake, 0..1.
+    BrakeRight,
+    /// Nacelle switch as an axis (a hat): over a half is aft, below minus a half forward.
+    NacelleAft,
+}
+
+/// What a device's button can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ButtonControl {
+    /// Nacelles towards the aeroplane while held.
+    NacelleForward,
+    /// Nacelles towards the helicopter while held.
+    NacelleAft,
+    /// Flap lever one detent down.
+    FlapDown,
+    /// Flap lever one detent up.
+    FlapUp,
+    /// Gear handle to its other position.
+    GearToggle,
+    /// Parking brake to its other position.
+    ParkingBrakeToggle,
+    /// SCAS, all axes, on or off.
+    ScasToggle,
+    /// Next rotor speed: helicopter, aeroplane early flights, aeroplane design.
+    RpmSelect,
+    /// Marks the moment in the log.
+    Marker,
+}
+
+/// What an axis does when its device is unplugged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WhenUnplugged {
+    /// Stays where it was.
+    #[default]
+    Hold,
+    /// Goes to its neutral position.
+    Centre,
+}
+
+/// One axis of a device.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AxisBinding {
+    /// The kernel's event code.
+    pub code: u64,
+    /// What it moves.
+    pub control: AxisControl,
+    /// Raw value at one end of travel; with `raw_max`, from the device itself where it tells.
+    #[serde(default)]
+    pub raw_min: Option<i64>,
+    /// Raw value at the other end.
+    #[serde(default)]
+    pub raw_max: Option<i64>,
+    /// Whether the raw value falls as the control rises.
+    #[serde(default)]
+    pub inverted: bool,
+    /// Dead zone either side of the middle, as a part of the half travel.
+    #[serde(default)]
+    pub dead_norm: f64,
+    /// Softness around the middle: 0 straight, 1 cubic.
+    #[serde(default)]
+    pub expo_norm: f64,
+    /// When the device is unplugged.
+    #[serde(default)]
+    pub when_unplugged: WhenUnplugged,
+}
+
+/// One button of a device.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ButtonBinding {
+    /// The kernel's event code.
+    pub code: u64,
+    /// What it does.
+    pub control: ButtonControl,
+}
+
+/// One device of the map; its place in the list is its number in the log.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Device {
+    /// The device's own name, or a part of it.
+    pub name: String,
+    /// Its axes.
+    #[serde(default)]
+    pub axis: Vec<AxisBinding>,
+    /// Its buttons.
+    #[serde(default)]
+    pub button: Vec<ButtonBinding>,
+}
+
+/// The cockpit map.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// Devices, in the order of their numbers.
+    #[serde(default)]
+    pub device: Vec<Device>,
+}
+
+/// Where the pilot holds everything. Booleans are 0 or 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// −1 full forward … 1 full aft.
+    pub stick_aft_norm: f64,
+    /// −1 full left … 1 full right.
+    pub stick_right_norm: f64,
+    /// 0 down … 1 up.
+    pub collective_norm: f64,
+    /// −1 full left … 1 full right pedal.
+    pub pedal_right_norm: f64,
+    /// Toe brakes, 0 … 1.
+    pub brake_norm: Pair<f64>,
+    /// Nacelle switch: −1 forward, 0 released, 1 aft.
+    pub nacelle_aft_norm: f64,
+    /// Flap lever's detent, 0 (up) to 3.
+    pub flap_detent: u64,
+    /// Gear handle down.
+    pub gear_down: u64,
+    /// Parking brake set.
+    pub parking_brake: u64,
+    /// SCAS switched on.
+    pub scas_on: u64,
+    /// Rotor speed selected: 0 helicopter, 1 and 2 aeroplane.
+    pub rpm_select: u64,
+    /// How often the marker was pressed.
+    pub markers: u64,
+}
+
+/// The number of the last flap detent.
+pub const FLAP_DETENT_LAST: u64 = 3;
+/// The number of the last rotor speed.
+pub const RPM_SELECT_LAST: u64 = 2;
+
+/// Applies the events in their order. Events of unknown devices, codes or kinds change nothing.
+pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
+    let mut controls = *state;
+    for event in events {
+        let Some(device) = usize::try_from(event.device).ok().and_then(|i| map.device.get(i))
+        else {
+            continue;
+        };
+        match EventKind::from_u64(event.kind) {
+            Some(EventKind::Axis) => {
+                for binding in device.axis.iter().filter(|axis| axis.code == event.code) {
+                    set_axis(&mut controls, binding.control, position(binding, event.value));
+                }
+            }
+            Some(EventKind::Button) => {
+                for binding in device.button.iter().filter(|button| button.code == event.code) {
+                    set_button(&mut controls, binding.control, event.value != 0);
+                }
+            }
+            Some(EventKind::Disconnected) => {
+                for binding in &device.axis {
+                    if binding.when_unplugged == WhenUnplugged::Centre {
+                        set_axis(&mut controls, binding.control, 0.0);
+                    }
+                }
+                // Nobody holds the switches of a device that is gone.
+                for binding in &device.button {
+                    set_button(&mut controls, binding.control, false);
+                }
+            }
+            Some(EventKind::Connected) | None => {}
+        }
+    }
+    controls
+}
+
+/// The raw value as a control position: −1..1, or 0..1 for those that start at an end.
+fn position(binding: &AxisBinding, raw: i64) -> f64 {
+    let (low, high) = (binding.raw_min.unwrap_or(-32767), binding.raw_max.unwrap_or(32767));
+    if low == high {
+        return 0.0;
+    }
+    let travel = clamp((raw - low) as f64 / (high - low) as f64, 0.0, 1.0);
+    let travel = if binding.inverted { 1.0 - travel } else { travel };
+    if !is_centred(binding.control) {
+        return travel;
+    }
+    let x = 2.0 * travel - 1.0;
+    let dead = clamp(binding.dead_norm, 0.0, 0.99);
+    let beyond = (x.abs() - dead) / (1.0 - dead);
+    if beyond <= 0.0 {
+        return 0.0;
+    }
+    let expo = clamp(binding.expo_norm, 0.0, 1.0);
+    sign(x) * ((1.0 - expo) * beyond + expo * beyond * beyond * beyond)
+}
+
+fn is_centred(control: AxisControl) -> bool {
+    use AxisControl::{NacelleAft, PedalRight, StickAft, StickRight};
+    matches!(control, StickAft | StickRight | PedalRight | NacelleAft)
+}
+
+fn set_axis(controls: &mut State, control: AxisControl, position_norm: f64) {
+    match control {
+        AxisControl::StickAft => controls.stick_aft_norm = position_norm,
+        AxisControl::StickRight => controls.stick_right_norm = position_norm,
+        AxisControl::Collective => controls.collective_norm = position_norm,
+        AxisControl::PedalRight => controls.pedal_right_norm = position_norm,
+        AxisControl::BrakeLeft => controls.brake_norm.left = position_norm,
+        AxisControl::BrakeRight => controls.brake_norm.right = position_norm,
+        AxisControl::NacelleAft => {
+            controls.nacelle_aft_norm =
+                if position_norm.abs() > 0.5 { sign(position_norm) } else { 0.0 };
+        }
+    }
+}
+
+fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
+    match control {
+        ButtonControl::NacelleForward => hold_nacelles(controls, -1.0, pressed),
+        ButtonControl::NacelleAft => hold_nacelles(controls, 1.0, pressed),
+        _ if !pressed => {}
+        ButtonControl::FlapDown => {
+            controls.flap_detent = (controls.flap_detent + 1).min(FLAP_DETENT_LAST);
+        }
+        ButtonControl::FlapUp => controls.flap_detent = controls.flap_detent.saturating_sub(1),
+        ButtonControl::GearToggle => controls.gear_down ^= 1,
+        ButtonControl::ParkingBrakeToggle => controls.parking_brake ^= 1,
+        ButtonControl::ScasToggle => controls.scas_on ^= 1,
+        ButtonControl::RpmSelect => {
+            controls.rpm_select = (controls.rpm_select + 1) % (RPM_SELECT_LAST + 1);
+        }
+        ButtonControl::Marker => controls.markers += 1,
+    }
+}
+
+/// A button that is released frees the switch only if it held it.
+fn hold_nacelles(controls: &mut State, aft_norm: f64, pressed: bool) {
+    if pressed {
+        controls.nacelle_aft_norm = aft_norm;
+    } else if sign(controls.nacelle_aft_norm) == sign(aft_norm) {
+        controls.nacelle_aft_norm = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use super::*;
+
+    fn axis(control: AxisControl) -> AxisBinding {
+        AxisBinding {
+            code: 1,
+            control,
+            raw_min: Some(0),
+            raw_max: Some(200),
+            inverted: false,
+            dead_norm: 0.1,
+            expo_norm: 0.0,
+            when_unplugged: WhenUnplugged::Centre,
+        }
+    }
+
+    fn stick(button: ButtonControl) -> Params {
+        Params {
+            device: vec![Device {
+                name: "stick".into(),
+                axis: vec![axis(AxisControl::StickAft)],
+                button: vec![ButtonBinding { code: 2, control: button }],
+            }],
+        }
+    }
+
+    fn event(kind: EventKind, code: u64, value: i64) -> DeviceEvent {
+        DeviceEvent { kind: kind as u64, code, value, ..DeviceEvent::default() }
+    }
+
+    #[test]
+    fn an_axis_reaches_its_ends_and_rests_in_its_dead_zone() {
+        let binding = axis(AxisControl::StickAft);
+        for (raw, at) in [(-5, -1.0), (0, -1.0), (95, 0.0), (100, 0.0), (109, 0.0), (200, 1.0)] {
+            assert!((position(&binding, raw) - at).abs() < 1e-15, "{raw}");
+        }
+        let left = position(&binding, 30);
+        let right = position(&binding, 170);
+        assert_eq!(left.to_bits(), (-right).to_bits());
+    }
+
+    #[test]
+    fn a_lever_starts_at_its_end() {
+        assert!((position(&axis(AxisControl::Collective), 50) - 0.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_unplugged_stick_goes_where_the_map_says() {
+        let map = stick(ButtonControl::NacelleForward);
+        let held = update(
+            &map,
+            &State::default(),
+            &[event(EventKind::Axis, 1, 200), event(EventKind::Button, 2, 1)],
+        );
+        assert_eq!((held.stick_aft_norm, held.nacelle_aft_norm), (1.0, -1.0));
+        let gone = update(&map, &held, &[event(EventKind::Disconnected, 0, 0)]);
+        assert_eq!((gone.stick_aft_norm, gone.nacelle_aft_norm), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_button_acts_when_pressed_not_when_released() {
+        let map = stick(ButtonControl::Marker);
+        let press = event(EventKind::Button, 2, 1);
+        let release = event(EventKind::Button, 2, 0);
+        let state = update(&map, &State::default(), &[press, release, press, release]);
+        assert_eq!(state.markers, 2);
+    }
+
+    #[test]
+    fn nonsense_changes_nothing() {
+        let map = stick(ButtonControl::Marker);
+        let mut wrong = event(EventKind::Axis, 1, 3);
+        wrong.device = u64::MAX;
+        let mut kind = event(EventKind::Axis, 1, 3);
+        kind.kind = 99;
+        assert_eq!(update(&map, &State::default(), &[wrong, kind]), State::default());
+    }
+}

@@ -1,0 +1,104 @@
+//! Collective governor: holds the rotor speed by collective; the lever sets the power.
+//!
+//! # Equations
+//! ```text
+//! e = Ω − Ω_ref        θ = θ_lever + K_P·e + K_I·∫e,  θ_min(βm) ≤ θ ≤ θ_max          [CR536 17 form]
+//! ```
+//! Gains fall from helicopter to aeroplane, where a degree of collective takes more torque. Ω_ref
+//! moves to a newly selected speed at a fixed rate; speeds other than the helicopter's are granted
+//! only with the nacelles down.
+//! # Signs
+//! Overspeed positive: it raises the collective.
+
+use serde::{Deserialize, Serialize};
+
+use crate::STEP_S;
+use crate::cockpit::RPM_SELECT_LAST;
+use crate::math::{FRAC_PI_2, clamp, max, min};
+use crate::table::Table1;
+
+/// Closer than this to the aeroplane the nacelles count as down.
+const DOWN_RAD: f64 = 0.02;
+
+/// What the governor is set to.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// Selectable speeds: helicopter, aeroplane as first flown, aeroplane as designed.
+    pub rotor_speed_radps: [f64; RPM_SELECT_LAST as usize + 1],
+    /// How fast the reference moves between them.
+    pub reference_radps2: f64,
+    /// K_P as a helicopter.
+    pub proportional_rad_per_radps: f64,
+    /// K_I as a helicopter.
+    pub integral_rad_per_rad: f64,
+    /// Gains as an aeroplane over those as a helicopter.
+    pub aeroplane_gain: f64,
+    /// θ_min at ¾ radius, over mast tilt.
+    pub collective_rad_min: Table1,
+    /// θ_max at ¾ radius.
+    pub collective_rad_max: f64,
+    /// How fast the governor may move the collective.
+    pub collective_radps_max: f64,
+}
+
+/// What the governor remembers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Ω_ref.
+    pub reference_radps: f64,
+    /// K_I·∫e.
+    pub integral_rad: f64,
+    /// θ − θ_lever, rate-limited.
+    pub correction_rad: f64,
+}
+
+/// What the governor reads.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs {
+    /// θ_lever.
+    pub feed_forward_rad: f64,
+    /// Selected speed.
+    pub rpm_select: u64,
+    /// Ω.
+    pub rotor_speed_radps: f64,
+    /// βm.
+    pub mast_tilt_rad: f64,
+    /// Holds its last correction.
+    pub failed: bool,
+}
+
+/// The state after the tick, and the collective for both rotors, rad at ¾ radius.
+pub fn update(params: &Params, state: &State, inputs: &Inputs) -> (State, f64) {
+    let low_rad = params.collective_rad_min.at(inputs.mast_tilt_rad);
+    let within = |rad: f64| {
+        clamp(
+            rad,
+            low_rad - inputs.feed_forward_rad,
+            params.collective_rad_max - inputs.feed_forward_rad,
+        )
+    };
+    let next = if inputs.failed {
+        *state
+    } else {
+        let nacelles_down = inputs.mast_tilt_rad > FRAC_PI_2 - DOWN_RAD;
+        let select = if nacelles_down { inputs.rpm_select.min(RPM_SELECT_LAST) } else { 0 };
+        let selected_radps = params.rotor_speed_radps[select as usize];
+        let step_radps = params.reference_radps2 * STEP_S;
+        let reference_radps = state.reference_radps
+            + clamp(selected_radps - state.reference_radps, -step_radps, step_radps);
+        let tilted = clamp(inputs.mast_tilt_rad / FRAC_PI_2, 0.0, 1.0);
+        let gain = 1.0 + tilted * (params.aeroplane_gain - 1.0);
+        let error_radps = inputs.rotor_speed_radps - reference_radps;
+        // Bounding the integral by what the collective can do keeps it from winding up.
+        let integral_rad =
+            within(state.integral_rad + gain * params.integral_rad_per_rad * error_radps * STEP_S);
+        let wanted_rad =
+            within(integral_rad + gain * params.proportional_rad_per_radps * error_radps);
+        let step_rad = params.collective_radps_max * STEP_S;
+        let correction_rad =
+            state.correction_rad + max(-step_rad, min(step_rad, wanted_rad - state.correction_rad));
+        State { reference_radps, integral_rad, correction_rad }
+    };
+    (next, inputs.feed_forward_rad + within(next.correction_rad))
+}

@@ -1,0 +1,106 @@
+//! Everything that comes in from outside, and nothing else does.
+//!
+//! Whoever calls [`step`](crate::step()) records these before the step that uses them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::frames::{Ned, Vec3};
+
+/// One raw event of an input device (or of a pilot model or script, which look the same).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DeviceEvent {
+    /// The tick whose step uses it.
+    pub tick: u64,
+    /// When the kernel saw it, ns since the Unix epoch; 0 where there was no kernel.
+    pub kernel_time_ns: u64,
+    /// Which device: its place in the cockpit map.
+    pub device: u64,
+    /// What happened: one of [`EventKind`].
+    pub kind: u64,
+    /// Which axis or button: the kernel's event code.
+    pub code: u64,
+    /// Raw value: counts of an axis; 1 pressed, 0 released of a button.
+    pub value: i64,
+}
+
+/// What a [`DeviceEvent`] tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u64)]
+pub enum EventKind {
+    /// An axis moved.
+    Axis = 1,
+    /// A button changed.
+    Button = 2,
+    /// The device appeared.
+    Connected = 3,
+    /// The device went away.
+    Disconnected = 4,
+}
+
+impl EventKind {
+    /// The kind recorded as `kind`, if it is one.
+    pub fn from_u64(kind: u64) -> Option<Self> {
+        [Self::Axis, Self::Button, Self::Connected, Self::Disconnected]
+            .into_iter()
+            .find(|&known| known as u64 == kind)
+    }
+}
+
+/// What fails, as bits of [`World::failures`].
+pub mod failures {
+    /// The left engine stops.
+    pub const ENGINE_LEFT: u64 = 1;
+    /// The right engine stops.
+    pub const ENGINE_RIGHT: u64 = 1 << 1;
+    /// The SCAS pitch axis goes dead.
+    pub const SCAS_PITCH: u64 = 1 << 2;
+    /// The SCAS roll axis goes dead.
+    pub const SCAS_ROLL: u64 = 1 << 3;
+    /// The SCAS yaw axis goes dead.
+    pub const SCAS_YAW: u64 = 1 << 4;
+    /// The collective governor holds its last correction.
+    pub const GOVERNOR: u64 = 1 << 5;
+}
+
+/// The world around the aircraft during one tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct World {
+    /// Motion of the air, m/s.
+    pub wind_mps: Vec3<Ned>,
+    /// Ground under the aircraft, above the origin's ground, m.
+    pub ground_height_m: f64,
+    /// Warmer than the standard atmosphere by, K.
+    pub temperature_offset_k: f64,
+    /// Sea-level pressure above the standard one by, Pa.
+    pub pressure_offset_pa: f64,
+    /// What has failed: bits of [`failures`].
+    pub failures: u64,
+    /// 1 while the simulation is paused: the tick passes, the aircraft does not.
+    pub paused: u64,
+}
+
+impl World {
+    /// Whether a bit of [`failures`] is set.
+    pub fn failed(&self, failure: u64) -> bool {
+        self.failures & failure != 0
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let Self {
+            wind_mps: wind, ground_height_m, temperature_offset_k, pressure_offset_pa, ..
+        } = self;
+        [wind.x, wind.y, wind.z, *ground_height_m, *temperature_offset_k, *pressure_offset_pa]
+            .iter()
+            .all(|value| value.is_finite())
+    }
+}
+
+/// What one step gets from outside.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a> {
+    /// Device events since the step before, in the order they are to be applied.
+    pub events: &'a [DeviceEvent],
+    /// The world.
+    pub world: World,
+}

@@ -1,0 +1,250 @@
+//! Landing gear: the ground's push and grip on three struts.
+//!
+//! # Equations
+//! ```text
+//! F = k·δ + c·δ̇, never pulling: F ≥ 0; past the stroke k grows tenfold
+//! grip: bristle s, ṡ = v_slip, |s| ≤ μF/k_t;   G = −(k_t·s + c_t·v_slip), |G| ≤ μF
+//! ```
+//! # Signs
+//! δ and δ̇ positive in compression. NED z is down, so the push is along −z. Slip positive forward
+//! and to the right of the aircraft's heading.
+//! # Assumptions
+//! Level ground; struts along NED z; a retracted wheel lies `retraction_m` higher and still bears, so
+//! a belly landing stands on the wheel wells. Rotors, tail and wing tips do not touch. The bristle
+//! is what lets the aircraft stand still: it holds without sliding, like a tyre's tread.
+
+use serde::{Deserialize, Serialize};
+
+use crate::STEP_S;
+use crate::frames::{Body, Load, Ned, Rotation, Structural, Vec3};
+use crate::math::{clamp, max, sqrt, square};
+use crate::pair::Pair;
+
+/// Past the stroke the strut is this much stiffer.
+const BOTTOMED: f64 = 10.0;
+
+/// What a strut is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Strut {
+    /// Tyre contact point, strut extended; of the right one where there are two.
+    pub tyre_m: Vec3<Structural>,
+    /// k.
+    pub stiffness_n_per_m: f64,
+    /// c.
+    pub damping_n_s_per_m: f64,
+    /// Travel until it bottoms.
+    pub stroke_m: f64,
+    /// μ along a rolling wheel.
+    pub rolling_friction: f64,
+    /// μ along a braked wheel, added at full brake.
+    pub braking_friction: f64,
+    /// μ across the wheel; a castering wheel has its rolling one.
+    pub sideways_friction: f64,
+}
+
+/// What the gear is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// Nose strut.
+    pub nose: Strut,
+    /// Main struts.
+    pub main: Strut,
+    /// k_t of one strut's tyres.
+    pub tread_stiffness_n_per_m: f64,
+    /// c_t.
+    pub tread_damping_n_s_per_m: f64,
+    /// How much higher a retracted wheel lies.
+    pub retraction_m: f64,
+}
+
+/// One of each strut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Struts<T> {
+    /// Nose.
+    pub nose: T,
+    /// Mains.
+    pub main: Pair<T>,
+}
+
+/// What a strut's tyres remember: how far their tread is strained.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tread {
+    /// Along the heading.
+    pub forward_m: f64,
+    /// To the right of it.
+    pub right_m: f64,
+}
+
+/// What the gear reads.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs {
+    /// Centre of gravity in the structure.
+    pub cg_m: Vec3<Structural>,
+    /// Centre of gravity in the world.
+    pub position_m: Vec3<Ned>,
+    /// Its velocity.
+    pub velocity_mps: Vec3<Ned>,
+    /// Angular rate of the body.
+    pub angular_rate_radps: Vec3<Body>,
+    /// Attitude.
+    pub ned_from_body: Rotation<Ned, Body>,
+    /// Ground above the origin.
+    pub ground_height_m: f64,
+    /// 0 up … 1 down.
+    pub extension_norm: f64,
+    /// Brake of each main wheel, 0..1.
+    pub brake_norm: Pair<f64>,
+}
+
+/// What a strut gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Leg {
+    /// On the airframe, about the centre of gravity.
+    pub load: Load,
+    /// δ; 0 in the air.
+    pub compression_m: f64,
+    /// The ground's push.
+    pub push_n: f64,
+    /// 1 past the stroke.
+    pub bottomed: u64,
+}
+
+/// Loads of the struts, and their treads after the tick.
+pub fn landing_gear(
+    params: &Params,
+    treads: &Struts<Tread>,
+    inputs: &Inputs,
+) -> (Struts<Tread>, Struts<Leg>) {
+    let leg = |strut: &Strut, tyre_m: Vec3<Structural>, tread: Tread, brake_norm: f64| {
+        strut_and_tread(params, strut, tyre_m, tread, brake_norm, inputs)
+    };
+    let (nose_tread, nose) = leg(&params.nose, params.nose.tyre_m, treads.nose, 0.0);
+    let main = Pair { left: params.main.tyre_m.mirrored(), right: params.main.tyre_m }
+        .zip(treads.main)
+        .zip(inputs.brake_norm)
+        .map(|((tyre_m, tread), brake_norm)| leg(&params.main, tyre_m, tread, brake_norm));
+    (
+        Struts { nose: nose_tread, main: main.map(|(tread, _)| tread) },
+        Struts { nose, main: main.map(|(_, leg)| leg) },
+    )
+}
+
+fn strut_and_tread(
+    params: &Params,
+    strut: &Strut,
+    tyre_m: Vec3<Structural>,
+    tread: Tread,
+    brake_norm: f64,
+    inputs: &Inputs,
+) -> (Tread, Leg) {
+    let raised = Vec3::new(0.0, 0.0, params.retraction_m * (1.0 - inputs.extension_norm));
+    let arm = (tyre_m + raised).from_cg(inputs.cg_m);
+    let tyre = inputs.position_m + inputs.ned_from_body * arm;
+    let compression_m = tyre.z + inputs.ground_height_m;
+    if compression_m <= 0.0 {
+        return (Tread::default(), Leg::default());
+    }
+    let velocity =
+        inputs.velocity_mps + inputs.ned_from_body * inputs.angular_rate_radps.cross(arm);
+    let past_stroke_m = max(0.0, compression_m - strut.stroke_m);
+    let push_n = max(
+        0.0,
+        strut.stiffness_n_per_m * (compression_m + (BOTTOMED - 1.0) * past_stroke_m)
+            + strut.damping_n_s_per_m * velocity.z,
+    );
+
+    let nose = inputs.ned_from_body * Vec3::<Body>::new(1.0, 0.0, 0.0);
+    let level = sqrt(square(nose.x) + square(nose.y));
+    let (north, east) = if level > 1e-6 { (nose.x / level, nose.y / level) } else { (1.0, 0.0) };
+    let slip_forward_mps = velocity.x * north + velocity.y * east;
+    let slip_right_mps = velocity.y * north - velocity.x * east;
+    let along = strut.rolling_friction + strut.braking_friction * brake_norm;
+    let (forward_m, forward_n) = grip(params, tread.forward_m, slip_forward_mps, along * push_n);
+    let (right_m, right_n) =
+        grip(params, tread.right_m, slip_right_mps, strut.sideways_friction * push_n);
+    let force = Vec3::<Ned>::new(
+        forward_n * north - right_n * east,
+        forward_n * east + right_n * north,
+        -push_n,
+    );
+    let load = Load::at(inputs.ned_from_body.inverse() * force, arm);
+    (
+        Tread { forward_m, right_m },
+        Leg { load, compression_m, push_n, bottomed: u64::from(past_stroke_m > 0.0) },
+    )
+}
+
+/// The strained tread after the tick, and its force, neither beyond what friction holds.
+fn grip(params: &Params, strain_m: f64, slip_mps: f64, force_n_max: f64) -> (f64, f64) {
+    let strain_m_max = force_n_max / params.tread_stiffness_n_per_m;
+    let strain_m = clamp(strain_m + slip_mps * STEP_S, -strain_m_max, strain_m_max);
+    let force_n =
+        -(params.tread_stiffness_n_per_m * strain_m + params.tread_damping_n_s_per_m * slip_mps);
+    (strain_m, clamp(force_n, -force_n_max, force_n_max))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::Attitude;
+
+    fn params() -> Params {
+        let strut = Strut {
+            tyre_m: Vec3::new(8.28, 1.19, 0.0),
+            stiffness_n_per_m: 175e3,
+            damping_n_s_per_m: 21e3,
+            stroke_m: 0.343,
+            rolling_friction: 0.025,
+            braking_friction: 0.5,
+            sideways_friction: 0.7,
+        };
+        Params {
+            nose: Strut { tyre_m: Vec3::new(3.48, 0.0, 0.0), ..strut.clone() },
+            main: strut,
+            tread_stiffness_n_per_m: 3e5,
+            tread_damping_n_s_per_m: 2e4,
+            retraction_m: 0.8,
+        }
+    }
+
+    fn standing(height_m: f64) -> Inputs {
+        Inputs {
+            cg_m: Vec3::new(7.65, 0.0, 2.0),
+            position_m: Vec3::new(0.0, 0.0, -height_m),
+            velocity_mps: Vec3::zero(),
+            angular_rate_radps: Vec3::zero(),
+            ned_from_body: Attitude::default().ned_from_body(),
+            ground_height_m: 0.0,
+            extension_norm: 1.0,
+            brake_norm: Pair::both(0.0),
+        }
+    }
+
+    #[test]
+    fn a_strut_pushes_by_its_spring_and_never_pulls() {
+        let (_, legs) = landing_gear(&params(), &Struts::default(), &standing(1.9));
+        assert!((legs.nose.push_n - 175e3 * 0.1).abs() < 1e-6);
+        let mut rebounding = standing(1.9);
+        rebounding.velocity_mps = Vec3::new(0.0, 0.0, -50.0);
+        let (_, legs) = landing_gear(&params(), &Struts::default(), &rebounding);
+        assert_eq!(legs.nose.push_n, 0.0);
+    }
+
+    #[test]
+    fn in_the_air_nothing_touches() {
+        let (treads, legs) = landing_gear(&params(), &Struts::default(), &standing(2.5));
+        assert_eq!((treads, legs), (Struts::default(), Struts::default()));
+    }
+
+    #[test]
+    fn sliding_grip_is_friction_times_push() {
+        let mut inputs = standing(1.9);
+        inputs.velocity_mps = Vec3::new(30.0, 0.0, 0.0);
+        inputs.brake_norm = Pair::both(1.0);
+        let (_, legs) = landing_gear(&params(), &Struts::default(), &inputs);
+        let grip_n = -legs.main.left.load.force_n.x;
+        assert!((grip_n / legs.main.left.push_n - 0.525).abs() < 1e-12);
+    }
+}

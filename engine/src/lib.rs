@@ -1,0 +1,53 @@
+//! The deterministic fixed-step flight model of a tilt-rotor.
+//!
+//! One function, [`step()`], takes the aircraft, its state and everything that came in from outside,
+//! and gives the next state and what can be observed. The same arguments give the same bits on
+//! every machine: there is no clock, no file, no thread and no randomness here, and the
+//! transcendental functions are the pinned ones of [`math`].
+//!
+//! Blocks are named as in the block diagram of the literature; [`mod@step`] wires them and is the
+//! only place that does.
+#![no_std]
+
+extern crate alloc;
+
+pub mod actuators;
+pub mod aero;
+pub mod aircraft;
+pub mod cockpit;
+pub mod engines;
+pub mod environment;
+pub mod eom;
+pub mod fcc;
+pub mod frames;
+pub mod inputs;
+pub mod landing_gear;
+pub mod math;
+pub mod outputs;
+pub mod pair;
+pub mod references;
+pub mod rotors;
+pub mod start;
+pub mod state;
+pub mod step;
+pub mod symmetry;
+pub mod table;
+pub mod weight_balance;
+
+pub use aircraft::Aircraft;
+pub use inputs::Inputs;
+pub use outputs::Outputs;
+pub use state::State;
+pub use step::step;
+
+/// Length of a tick, s. 250 Hz: every log time is a whole number of nanoseconds.
+pub const STEP_S: f64 = 0.004;
+
+/// Length of a tick, ns.
+pub const STEP_NS: u64 = 4_000_000;
+
+/// Names the motion: logs flown under another version are not expected to refly to the same bits.
+pub const MODEL_VERSION: &str = "1";
+
+/// Standard gravity, m/s².
+pub const GRAVITY_MPS2: f64 = 9.806_65;

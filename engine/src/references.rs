@@ -1,0 +1,27 @@
+//! The sources that module pages and the aircraft file name by a key.
+//!
+//! - **CR536**: Ferguson, *A Mathematical Model for Real Time Flight Simulation of a Generic
+//!   Tilt-Rotor Aircraft*, NASA CR-166536 Rev. A, 1988. The reference model (GTRS) and its XV-15
+//!   data. Taken: tables, gearing, structure, all through transcriptions by others, as the trust
+//!   labels in the aircraft file say. Doubted: single-source constants.
+//! - **CR537**: Ferguson, *Development and Validation of a Simulation for a Generic Tilt-Rotor
+//!   Aircraft*, NASA CR-166537, 1989. Trim printouts.
+//! - **TMX**: Maisel (ed.), *NASA/Army XV-15 Tilt Rotor Research Aircraft Familiarization Document*,
+//!   NASA TM X-62,407, 1975. Geometry, weights, limits. Its 1975 predictions are superseded by flight.
+//! - **TM812**: Dugan, Erhart, Schroers, *The XV-15 Tilt Rotor Research Aircraft*, NASA TM-81244,
+//!   1980. Flown rotor speeds, procedures, ceilings.
+//! - **CR176970**: Jordan, Patterson, Sandlin, *Approximate Determination of the Tilt Rotor Research
+//!   Aircraft Rotor/Wing Download*, 1986. Hover power and download in flight.
+//! - **KH**: Kleinhesselink, *Stability and Control Modeling of Tiltrotor Aircraft*, University of
+//!   Maryland, 2007. A low-order airframe model.
+//! - **ISO2533**: *Standard Atmosphere*, 1975.
+//! - **PETERS**: Pitt and Peters, *Theoretical Prediction of Dynamic-Inflow Derivatives*, Vertica 5,
+//!   1981. Apparent mass of the inflow.
+//! - **CHEESEMAN**: Cheeseman and Bennett, *The Effect of the Ground on a Helicopter Rotor in Forward
+//!   Flight*, ARC R&M 3021, 1955.
+//! - **STEVENS**: Stevens, Lewis, Johnson, *Aircraft Control and Simulation*, 3rd ed. Rigid-body
+//!   equations with quaternions.
+//!
+//! Trust labels of the aircraft file: `V` read in the document, `V-fig` read off its figure, `V-sec`
+//! read in a transcription by others, `R+` recalled with confidence, `R?` recalled, `E` an
+//! engineering estimate, never published.

@@ -1,0 +1,198 @@
+//! Everything the aircraft remembers: plain numbers of eight bytes.
+
+use serde::{Deserialize, Serialize};
+
+use crate::frames::{Attitude, Body, Ned, Vec3};
+use crate::landing_gear::{Struts, Tread};
+use crate::pair::Pair;
+use crate::{actuators, cockpit, engines, eom, fcc, rotors};
+
+/// The whole state. No pointers, no NaN, no −0.0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Ticks flown.
+    pub tick: u64,
+    /// 1 once a number of the motion stopped being finite: the aircraft stands still from there.
+    pub frozen: u64,
+    /// Where the pilot holds everything.
+    pub cockpit: cockpit::State,
+    /// Flight control computer.
+    pub fcc: fcc::State,
+    /// Actuators.
+    pub actuators: actuators::State,
+    /// Motion, rotors, engines, gear.
+    pub plant: Plant,
+    /// How fast the plant changed in the tick before, for the integration.
+    pub rate: PlantRate,
+}
+
+/// What moves by physics.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Plant {
+    /// Where the origin of NED is.
+    pub origin: Geodetic,
+    /// Centre of gravity.
+    pub position_m: Vec3<Ned>,
+    /// Its velocity over the ground.
+    pub velocity_mps: Vec3<Ned>,
+    /// Attitude.
+    pub attitude: Attitude,
+    /// ω.
+    pub angular_rate_radps: Vec3<Body>,
+    /// Inflow and tip path of each rotor; the left one as its mirror image.
+    pub rotors: Pair<rotors::State>,
+    /// Ω of both rotors.
+    pub rotor_speed_radps: f64,
+    /// Azimuth of a right blade, 0..2π from aft; the left rotor's is its mirror image.
+    pub rotor_azimuth_rad: f64,
+    /// Engines.
+    pub engines: Pair<engines::State>,
+    /// Fuel aboard.
+    pub fuel_kg: f64,
+    /// Strained tyre treads.
+    pub treads: Struts<Tread>,
+    /// 1 while a main wheel bears weight.
+    pub weight_on_wheels: u64,
+}
+
+/// A place on the WGS-84 ellipsoid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Geodetic {
+    /// North positive.
+    pub latitude_rad: f64,
+    /// East positive.
+    pub longitude_rad: f64,
+    /// Above mean sea level.
+    pub height_m: f64,
+}
+
+/// How fast the plant changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlantRate {
+    /// Of the motion.
+    pub motion: eom::Rate,
+    /// Of each rotor.
+    pub rotors: Pair<rotors::Rate>,
+    /// Of rotor speed, power and fuel.
+    pub engines: engines::Rate,
+}
+
+/// Every floating-point number of a part of the state, to be looked at or changed in place.
+///
+/// The macro below names every field without a rest pattern: a new field that is forgotten here does
+/// not compile.
+trait Numbers {
+    fn each(&mut self, f: &mut impl FnMut(&mut f64));
+}
+
+impl Numbers for f64 {
+    fn each(&mut self, f: &mut impl FnMut(&mut f64)) {
+        f(self);
+    }
+}
+
+impl Numbers for u64 {
+    fn each(&mut self, _: &mut impl FnMut(&mut f64)) {}
+}
+
+impl<F> Numbers for Vec3<F> {
+    fn each(&mut self, f: &mut impl FnMut(&mut f64)) {
+        f(&mut self.x);
+        f(&mut self.y);
+        f(&mut self.z);
+    }
+}
+
+macro_rules! numbers {
+    ($($name:ty { $($field:ident),+ $(,)? })+) => {
+        $(impl Numbers for $name {
+            fn each(&mut self, f: &mut impl FnMut(&mut f64)) {
+                let Self { $($field),+ } = self;
+                $($field.each(f);)+
+            }
+        })+
+    };
+}
+
+impl<T: Numbers> Numbers for Pair<T> {
+    fn each(&mut self, f: &mut impl FnMut(&mut f64)) {
+        self.left.each(f);
+        self.right.each(f);
+    }
+}
+
+impl<T: Numbers> Numbers for Struts<T> {
+    fn each(&mut self, f: &mut impl FnMut(&mut f64)) {
+        self.nose.each(f);
+        self.main.each(f);
+    }
+}
+
+numbers! {
+    State { tick, frozen, cockpit, fcc, actuators, plant, rate }
+    cockpit::State {
+        stick_aft_norm, stick_right_norm, collective_norm, pedal_right_norm, brake_norm,
+        nacelle_aft_norm, flap_detent, gear_down, parking_brake, scas_on, rpm_select, markers,
+    }
+    fcc::State { scas, governor }
+    fcc::scas::State {
+        mean_aft_m, mean_right_m, mean_pedal_right_m, held_pitch_rad, held_roll_rad,
+    }
+    fcc::governor::State { reference_radps, integral_rad, correction_rad }
+    actuators::State {
+        collective_rad, cyclic_forward_rad, elevator_rad, flaperon_rad, rudder_right_rad, flap_rad,
+        mast_tilt_rad, mast_tilt_rate_radps, gear_extension_norm, lever_norm, brake_norm,
+    }
+    Plant {
+        origin, position_m, velocity_mps, attitude, angular_rate_radps, rotors, rotor_speed_radps,
+        rotor_azimuth_rad, engines, fuel_kg, treads, weight_on_wheels,
+    }
+    Geodetic { latitude_rad, longitude_rad, height_m }
+    Attitude { w, x, y, z }
+    rotors::State { induced_mps, tilt_aft_rad, tilt_right_rad }
+    engines::State { power_w }
+    Tread { forward_m, right_m }
+    PlantRate { motion, rotors, engines }
+    eom::Rate { acceleration_mps2, angular_acceleration_radps2 }
+    rotors::Rate { induced_mps2, tilt_aft_radps, tilt_right_radps }
+    engines::Rate { power_w_per_s, rotor_speed_radps2, fuel_kg_per_s }
+}
+
+impl State {
+    /// Simulated time, s: ticks times the step, never summed.
+    pub fn time_s(&self) -> f64 {
+        self.tick as f64 * crate::STEP_S
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let mut finite = true;
+        let mut copy = *self;
+        copy.each(&mut |number| finite &= number.is_finite());
+        finite
+    }
+
+    /// With every −0.0 made +0.0, so that equal states have equal bits.
+    #[must_use]
+    pub fn without_negative_zeros(mut self) -> Self {
+        self.each(&mut |number| *number += 0.0);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_negative_zero_and_no_nan_escapes() {
+        let mut state = State::default();
+        state.plant.treads.main.right.right_m = -0.0;
+        let kept = state.without_negative_zeros();
+        assert_eq!(kept.plant.treads.main.right.right_m.to_bits(), 0);
+        assert!(state.is_finite());
+        state.rate.engines.power_w_per_s.left = f64::NAN;
+        assert!(!state.is_finite());
+    }
+}

@@ -1,0 +1,387 @@
+//! One tick, and all the wiring between the blocks.
+//!
+//! # Equations
+//! ```text
+//! x' = x + h·(3/2·ẋ − 1/2·ẋ_before)                 rates of the plant (Adams–Bashforth, 2nd order)
+//! p' = p + h·(V + V')/2       q' = q ⊗ exp(h·(ω + ω')/4)      position and attitude
+//! ```
+//! # Assumptions
+//! Cockpit, computer, actuators and tyres are sampled: they move once a tick and hold through it.
+
+use crate::aero::{Motion, fuselage, horizontal_stabilizer, vertical_stabilizers, wing_pylon};
+use crate::frames::{Body, Load, Ned, Rotation, Vec3};
+use crate::inputs::World;
+use crate::landing_gear::{Struts, Tread};
+use crate::math::{TAU, atan2, max, min, sqrt, square};
+use crate::outputs::{EulerRate, Loads, Outputs, calibrated_airspeed, place, validity};
+use crate::pair::Pair;
+use crate::state::{Plant, PlantRate, State};
+use crate::symmetry::unmirrored;
+use crate::{
+    Aircraft, Inputs, STEP_S, actuators, cockpit, engines, environment, eom, fcc, landing_gear,
+    rotors, weight_balance,
+};
+
+/// Advances the aircraft by one tick. Same arguments, same bits.
+pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
+    let pilot = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
+    let held = State { tick: state.tick + 1, cockpit: pilot, ..*state };
+    if inputs.world.paused != 0 || state.frozen != 0 {
+        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world);
+        return (held, blocks.outputs(&held));
+    }
+
+    // Sampled once, held through the tick.
+    let sensed = sense(state, &inputs.world);
+    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &pilot, &sensed, &inputs.world);
+    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
+    let sampled = State { fcc, actuators, ..held };
+
+    // Integrated across the tick.
+    let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world);
+    let plant = advance(&sampled.plant, &blocks.rate, &state.rate, &blocks.gear);
+    let next = State { plant, rate: blocks.rate, ..sampled }.without_negative_zeros();
+    let next = if next.is_finite() { next } else { State { frozen: 1, ..held } };
+    let outputs = Outputs { commands, ..blocks.outputs(&next) };
+    (next, outputs)
+}
+
+/// What the flight control computer's sensors read. Ideal: no lag, no noise.
+fn sense(state: &State, world: &World) -> fcc::Sensed {
+    let plant = &state.plant;
+    let airspeed_mps = (plant.velocity_mps - world.wind_mps).norm();
+    let air = air(plant, world);
+    fcc::Sensed {
+        angular_rate_radps: plant.angular_rate_radps,
+        euler: plant.attitude.euler(),
+        airspeed_mps,
+        dynamic_pressure_pa: 0.5 * air.density_kg_per_m3 * square(airspeed_mps),
+        rotor_speed_radps: plant.rotor_speed_radps,
+        mast_tilt_rad: state.actuators.mast_tilt_rad.mean(),
+        weight_on_wheels: plant.weight_on_wheels != 0,
+    }
+}
+
+fn air(plant: &Plant, world: &World) -> environment::Outputs {
+    environment::air(&environment::Inputs {
+        height_m: plant.origin.height_m - plant.position_m.z,
+        temperature_offset_k: world.temperature_offset_k,
+        pressure_offset_pa: world.pressure_offset_pa,
+    })
+}
+
+/// The plant one tick later.
+fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear) -> Plant {
+    let ab2 = |now: f64, before: f64| STEP_S * (1.5 * now - 0.5 * before);
+    let motion = (&rate.motion, &rate_before.motion);
+    let velocity_mps = plant.velocity_mps
+        + (motion.0.acceleration_mps2 * 1.5 - motion.1.acceleration_mps2 * 0.5) * STEP_S;
+    let angular_rate_radps = plant.angular_rate_radps
+        + (motion.0.angular_acceleration_radps2 * 1.5 - motion.1.angular_acceleration_radps2 * 0.5)
+            * STEP_S;
+    let rotors =
+        plant.rotors.zip(rate.rotors.zip(rate_before.rotors)).map(|(rotor, (now, before))| {
+            rotors::State {
+                induced_mps: rotor.induced_mps + ab2(now.induced_mps2, before.induced_mps2),
+                tilt_aft_rad: rotor.tilt_aft_rad + ab2(now.tilt_aft_radps, before.tilt_aft_radps),
+                tilt_right_rad: rotor.tilt_right_rad
+                    + ab2(now.tilt_right_radps, before.tilt_right_radps),
+            }
+        });
+    let (drive, drive_before) = (&rate.engines, &rate_before.engines);
+    let engines = plant.engines.zip(drive.power_w_per_s.zip(drive_before.power_w_per_s)).map(
+        |(engine, (now, before))| engines::State { power_w: engine.power_w + ab2(now, before) },
+    );
+    let rotor_speed_radps = max(
+        0.0,
+        plant.rotor_speed_radps + ab2(drive.rotor_speed_radps2, drive_before.rotor_speed_radps2),
+    );
+    let turned_rad =
+        plant.rotor_azimuth_rad + 0.5 * (plant.rotor_speed_radps + rotor_speed_radps) * STEP_S;
+    Plant {
+        position_m: plant.position_m + (plant.velocity_mps + velocity_mps) * (0.5 * STEP_S),
+        velocity_mps,
+        attitude: plant
+            .attitude
+            .turned_by((plant.angular_rate_radps + angular_rate_radps) * (0.5 * STEP_S)),
+        angular_rate_radps,
+        rotors,
+        rotor_speed_radps,
+        rotor_azimuth_rad: if turned_rad >= TAU { turned_rad - TAU } else { turned_rad },
+        engines,
+        fuel_kg: max(0.0, plant.fuel_kg + ab2(drive.fuel_kg_per_s, drive_before.fuel_kg_per_s)),
+        treads: gear.treads,
+        weight_on_wheels: u64::from(gear.legs.main.map(|leg| leg.push_n).sum() > 0.0),
+        ..*plant
+    }
+}
+
+/// The landing gear's answer: next treads, and each leg.
+struct Gear {
+    treads: Struts<Tread>,
+    legs: Struts<landing_gear::Leg>,
+}
+
+/// What every block says of one state: the block diagram, once through.
+struct Blocks {
+    height_above_ground_m: f64,
+    air: environment::Outputs,
+    motion: Motion,
+    balance: weight_balance::Outputs,
+    rotors: Pair<rotors::Outputs>,
+    engines: engines::Outputs,
+    gear: Gear,
+    loads: Loads,
+    total: Load,
+    rate: PlantRate,
+}
+
+impl Blocks {
+    fn evaluate(aircraft: &Aircraft, state: &State, world: &World) -> Self {
+        let plant = &state.plant;
+        let surfaces = &state.actuators;
+        let ned_from_body = plant.attitude.ned_from_body();
+
+        let air = air(plant, world);
+        let balance = weight_balance::balance(
+            &aircraft.weight_balance,
+            plant.fuel_kg,
+            surfaces.mast_tilt_rad.mean(),
+        );
+        let motion = Motion {
+            cg_m: balance.cg_m,
+            airspeed_mps: ned_from_body.inverse() * (plant.velocity_mps - world.wind_mps),
+            angular_rate_radps: plant.angular_rate_radps,
+            density_kg_per_m3: air.density_kg_per_m3,
+        };
+        // The left side is computed as the mirror image of a right side.
+        let motions = Pair { left: motion.mirrored(), right: motion };
+        let thrust_axes =
+            surfaces.mast_tilt_rad.map(|tilt_rad| aircraft.rotors.thrust_axis(tilt_rad));
+        let height_above_ground_m = -plant.position_m.z - world.ground_height_m;
+
+        let from_rotors = rotors(aircraft, state, motions, &ned_from_body, height_above_ground_m);
+        let rotors = from_rotors.map(|(_, outputs)| outputs);
+        let (engine_rate, engines) = engines::engines(
+            &aircraft.engines,
+            &plant.engines,
+            &engines::Inputs {
+                lever_norm: surfaces.lever_norm,
+                rotor_speed_radps: plant.rotor_speed_radps,
+                rotor_torque_n_m: rotors.map(|rotor| rotor.torque_n_m),
+                rotor_inertia_kg_m2: 2.0 * aircraft.rotors.polar_inertia_kg_m2,
+                pressure_pa: air.pressure_pa,
+                temperature_k: air.temperature_k,
+                fuel_kg: plant.fuel_kg,
+                world: *world,
+            },
+        );
+        let (treads, legs) = landing_gear::landing_gear(
+            &aircraft.landing_gear,
+            &plant.treads,
+            &landing_gear::Inputs {
+                cg_m: balance.cg_m,
+                position_m: plant.position_m,
+                velocity_mps: plant.velocity_mps,
+                angular_rate_radps: plant.angular_rate_radps,
+                ned_from_body,
+                ground_height_m: world.ground_height_m,
+                extension_norm: surfaces.gear_extension_norm,
+                brake_norm: surfaces.brake_norm,
+            },
+        );
+        let loads = Loads {
+            rotors: unmirrored(rotors.map(|rotor| rotor.load)),
+            wing_pylon: unmirrored(half_wings(aircraft, surfaces, motions, thrust_axes, rotors)),
+            fuselage: fuselage::fuselage(
+                &aircraft.fuselage,
+                &fuselage::Inputs { motion, gear_extension_norm: surfaces.gear_extension_norm },
+            ),
+            horizontal_stabilizer: horizontal_stabilizer::horizontal_stabilizer(
+                &aircraft.horizontal_stabilizer,
+                &horizontal_stabilizer::Inputs { motion, elevator_rad: surfaces.elevator_rad },
+            ),
+            vertical_stabilizers: unmirrored(fins(aircraft, surfaces, motions)),
+            jets: unmirrored(engines.jet_thrust_n.zip(thrust_axes).map(|(thrust_n, axis)| {
+                engines::jet(thrust_n, axis, aircraft.rotors.pivot_m, balance.cg_m)
+            })),
+            landing_gear: Struts { nose: legs.nose.load, main: legs.main.map(|leg| leg.load) },
+        };
+        let total = loads.total();
+        let spin = rotor_momentum(aircraft, state, thrust_axes, engine_rate.rotor_speed_radps2);
+        let rate = PlantRate {
+            motion: eom::motion(&eom::Inputs {
+                load: total,
+                balance,
+                ned_from_body,
+                angular_rate_radps: plant.angular_rate_radps,
+                rotor_momentum_n_m_s: spin.0,
+                rotor_momentum_rate_n_m: spin.1,
+            }),
+            rotors: from_rotors.map(|(rate, _)| rate),
+            engines: engine_rate,
+        };
+        let gear = Gear { treads, legs };
+        Self {
+            height_above_ground_m,
+            air,
+            motion,
+            balance,
+            rotors,
+            engines,
+            gear,
+            loads,
+            total,
+            rate,
+        }
+    }
+
+    /// `next` is the state after the tick; loads are those that led to it.
+    fn outputs(&self, next: &State) -> Outputs {
+        let plant = &next.plant;
+        let euler = plant.attitude.euler();
+        let body_from_ned = plant.attitude.ned_from_body().inverse();
+        let airspeed_mps = self.motion.airspeed_mps.norm();
+        let mach = airspeed_mps / self.air.sound_speed_mps;
+        let specific_force_mps2 = self.total.force_n * (1.0 / self.balance.mass_kg);
+        let flow = self.motion.airspeed_mps;
+        let in_plane_mps = sqrt(square(flow.x) + square(flow.z));
+        Outputs {
+            tick: next.tick,
+            place: place(&plant.origin, plant.position_m),
+            position_m: plant.position_m,
+            height_above_ground_m: self.height_above_ground_m,
+            velocity_mps: plant.velocity_mps,
+            body_velocity_mps: body_from_ned * plant.velocity_mps,
+            euler,
+            euler_rate: EulerRate::new(euler, plant.angular_rate_radps),
+            angular_rate_radps: plant.angular_rate_radps,
+            specific_force_mps2,
+            load_factor: -specific_force_mps2.z / crate::GRAVITY_MPS2,
+            airspeed_mps,
+            calibrated_airspeed_mps: calibrated_airspeed(min(mach, 0.99), self.air.pressure_pa),
+            mach,
+            alpha_rad: atan2(flow.z, flow.x),
+            beta_rad: atan2(flow.y, in_plane_mps),
+            air: self.air,
+            balance: self.balance,
+            fuel_kg: plant.fuel_kg,
+            cockpit: next.cockpit,
+            actuators: next.actuators,
+            rotor_speed_radps: plant.rotor_speed_radps,
+            rotor_azimuth_rad: plant.rotor_azimuth_rad,
+            rotors: self.rotors,
+            engines: self.engines,
+            landing_gear: self.gear.legs,
+            loads: self.loads,
+            total: self.total,
+            validity: self.validity(next),
+            ..Outputs::default()
+        }
+    }
+
+    fn validity(&self, next: &State) -> u64 {
+        let flag = |bit: u64, set: bool| if set { bit } else { 0 };
+        let up_mps = -next.plant.velocity_mps.z;
+        let induced_mps = self.rotors.map(|rotor| rotor.induced_mps).mean();
+        let upright = next.actuators.mast_tilt_rad.mean() < 0.5;
+        let slow = self.rotors.left.advance_ratio < 0.05 && self.rotors.right.advance_ratio < 0.05;
+        let legs = &self.gear.legs;
+        let bottomed =
+            [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
+        flag(validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
+            | flag(validity::VORTEX_RING, upright && slow && up_mps < -0.5 * induced_mps)
+            | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
+            | flag(validity::HEIGHT, next.plant.origin.height_m - next.plant.position_m.z > 12e3)
+            | flag(validity::GEAR_BOTTOMED, bottomed)
+            | flag(validity::FROZEN, next.frozen != 0)
+    }
+}
+
+/// Both rotors, each as a right one.
+fn rotors(
+    aircraft: &Aircraft,
+    state: &State,
+    motions: Pair<Motion>,
+    ned_from_body: &Rotation<Ned, Body>,
+    height_above_ground_m: f64,
+) -> Pair<(rotors::Rate, rotors::Outputs)> {
+    let surfaces = &state.actuators;
+    let controls = surfaces
+        .mast_tilt_rad
+        .zip(surfaces.mast_tilt_rate_radps)
+        .zip(surfaces.collective_rad.zip(surfaces.cyclic_forward_rad));
+    let sides = Pair { left: -1.0, right: 1.0 };
+    state.plant.rotors.zip(motions.zip(controls.zip(sides))).map(
+        |(rotor, (motion, (((mast_tilt_rad, mast_tilt_rate_radps), pitch), side)))| {
+            let hub = aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad);
+            let hub: Vec3<Body> = Vec3::new(hub.x, side * hub.y, hub.z);
+            let inputs = rotors::Inputs {
+                motion,
+                mast_tilt_rad,
+                mast_tilt_rate_radps,
+                rotor_speed_radps: state.plant.rotor_speed_radps,
+                collective_rad: pitch.0,
+                cyclic_forward_rad: pitch.1,
+                hub_height_m: height_above_ground_m - (*ned_from_body * hub).z,
+            };
+            rotors::rotor(&aircraft.rotors, &rotor, &inputs)
+        },
+    )
+}
+
+/// Both half wings, each as a right one.
+fn half_wings(
+    aircraft: &Aircraft,
+    surfaces: &actuators::State,
+    motions: Pair<Motion>,
+    thrust_axes: Pair<Vec3<Body>>,
+    rotors: Pair<rotors::Outputs>,
+) -> Pair<Load> {
+    let wake = thrust_axes.zip(rotors.map(|rotor| rotor.induced_mps));
+    let controls = surfaces.mast_tilt_rad.zip(surfaces.flaperon_rad);
+    motions.zip(wake.zip(controls)).map(
+        |(motion, ((thrust_axis, induced_mps), (mast_tilt_rad, flaperon_rad)))| {
+            let inputs = wing_pylon::Inputs {
+                motion,
+                mast_tilt_rad,
+                thrust_axis,
+                induced_mps,
+                flap_rad: surfaces.flap_rad,
+                flaperon_rad,
+            };
+            wing_pylon::half_wing(&aircraft.wing_pylon, &inputs)
+        },
+    )
+}
+
+/// Both fins, each as a right one.
+fn fins(aircraft: &Aircraft, surfaces: &actuators::State, motions: Pair<Motion>) -> Pair<Load> {
+    let right_rad = surfaces.rudder_right_rad;
+    motions.zip(Pair { left: -right_rad, right: right_rad }).map(|(motion, rudder_rad)| {
+        let inputs = vertical_stabilizers::Inputs { motion, rudder_rad };
+        vertical_stabilizers::fin(&aircraft.vertical_stabilizers, &inputs)
+    })
+}
+
+/// Angular momentum of both rotors, and its rate in body axes from spin-up and nacelle tilt.
+///
+/// The right rotor turns about its thrust axis, the left one the other way round.
+fn rotor_momentum(
+    aircraft: &Aircraft,
+    state: &State,
+    thrust_axes: Pair<Vec3<Body>>,
+    rotor_speed_radps2: f64,
+) -> (Vec3<Body>, Vec3<Body>) {
+    let polar_kg_m2 = aircraft.rotors.polar_inertia_kg_m2;
+    let both = |right_handed: Pair<Vec3<Body>>| {
+        Pair { left: right_handed.left.mirrored_axial(), right: right_handed.right }.sum()
+    };
+    let spin = polar_kg_m2 * state.plant.rotor_speed_radps;
+    let spin_up = polar_kg_m2 * rotor_speed_radps2;
+    let rate = thrust_axes.zip(state.actuators.mast_tilt_rate_radps).map(|(axis, tilt_radps)| {
+        // Tilting forward is a nose-down turn.
+        axis * spin_up + Vec3::new(0.0, -tilt_radps, 0.0).cross(axis * spin)
+    });
+    (both(thrust_axes.map(|axis| axis * spin)), both(rate))
+}

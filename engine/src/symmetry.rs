@@ -1,0 +1,131 @@
+//! Left and right exchanged: the mirror image of states and inputs.
+//!
+//! A mirrored flight is the mirrored state, to the bit. North–down is the mirror plane of the world.
+
+use crate::frames::Load;
+use crate::inputs::{World, failures};
+use crate::landing_gear::{Struts, Tread};
+use crate::pair::Pair;
+use crate::state::{Plant, PlantRate, State};
+use crate::{actuators, cockpit, engines, eom, fcc};
+
+/// Has a mirror image in the plane of symmetry.
+pub trait Mirror {
+    /// The image.
+    #[must_use]
+    fn mirrored(&self) -> Self;
+}
+
+impl Mirror for State {
+    fn mirrored(&self) -> Self {
+        Self {
+            cockpit: self.cockpit.mirrored(),
+            fcc: self.fcc.mirrored(),
+            actuators: self.actuators.mirrored(),
+            plant: self.plant.mirrored(),
+            rate: self.rate.mirrored(),
+            ..*self
+        }
+        .without_negative_zeros()
+    }
+}
+
+impl Mirror for cockpit::State {
+    fn mirrored(&self) -> Self {
+        Self {
+            stick_right_norm: -self.stick_right_norm,
+            pedal_right_norm: -self.pedal_right_norm,
+            brake_norm: self.brake_norm.swapped(),
+            ..*self
+        }
+    }
+}
+
+impl Mirror for fcc::State {
+    fn mirrored(&self) -> Self {
+        Self {
+            scas: fcc::scas::State {
+                mean_right_m: -self.scas.mean_right_m,
+                mean_pedal_right_m: -self.scas.mean_pedal_right_m,
+                held_roll_rad: -self.scas.held_roll_rad,
+                ..self.scas
+            },
+            ..*self
+        }
+    }
+}
+
+impl Mirror for actuators::State {
+    fn mirrored(&self) -> Self {
+        Self {
+            collective_rad: self.collective_rad.swapped(),
+            cyclic_forward_rad: self.cyclic_forward_rad.swapped(),
+            flaperon_rad: self.flaperon_rad.swapped(),
+            rudder_right_rad: -self.rudder_right_rad,
+            mast_tilt_rad: self.mast_tilt_rad.swapped(),
+            mast_tilt_rate_radps: self.mast_tilt_rate_radps.swapped(),
+            brake_norm: self.brake_norm.swapped(),
+            ..*self
+        }
+    }
+}
+
+impl Mirror for Plant {
+    fn mirrored(&self) -> Self {
+        Self {
+            position_m: self.position_m.mirrored(),
+            velocity_mps: self.velocity_mps.mirrored(),
+            attitude: self.attitude.mirrored(),
+            angular_rate_radps: self.angular_rate_radps.mirrored_axial(),
+            rotors: self.rotors.swapped(),
+            engines: self.engines.swapped(),
+            treads: Struts {
+                nose: mirrored_tread(self.treads.nose),
+                main: self.treads.main.swapped().map(mirrored_tread),
+            },
+            ..*self
+        }
+    }
+}
+
+fn mirrored_tread(tread: Tread) -> Tread {
+    Tread { right_m: -tread.right_m, ..tread }
+}
+
+impl Mirror for PlantRate {
+    fn mirrored(&self) -> Self {
+        Self {
+            motion: eom::Rate {
+                acceleration_mps2: self.motion.acceleration_mps2.mirrored(),
+                angular_acceleration_radps2: self
+                    .motion
+                    .angular_acceleration_radps2
+                    .mirrored_axial(),
+            },
+            rotors: self.rotors.swapped(),
+            engines: engines::Rate {
+                power_w_per_s: self.engines.power_w_per_s.swapped(),
+                ..self.engines
+            },
+        }
+    }
+}
+
+impl Mirror for World {
+    fn mirrored(&self) -> Self {
+        let moved = |from: u64, to: u64| if self.failed(from) { to } else { 0 };
+        let engines = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
+        Self {
+            wind_mps: self.wind_mps.mirrored(),
+            failures: (self.failures & !engines)
+                | moved(failures::ENGINE_LEFT, failures::ENGINE_RIGHT)
+                | moved(failures::ENGINE_RIGHT, failures::ENGINE_LEFT),
+            ..*self
+        }
+    }
+}
+
+/// Loads of both sides from loads that were each computed as the right one's.
+pub fn unmirrored(loads: Pair<Load>) -> Pair<Load> {
+    Pair { left: loads.left.mirrored(), right: loads.right }
+}

@@ -1,0 +1,1 @@
+//! FlightGear's wire formats and link.

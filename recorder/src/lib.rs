@@ -1,0 +1,1 @@
+//! The piloted flight in real time.

@@ -1,0 +1,1 @@
+//! Rerunning a flight log.

@@ -1,0 +1,2 @@
+//! tiltrotor.
+fn main() {}
