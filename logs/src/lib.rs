@@ -1,1 +1,94 @@
-//! The flight log: format, writer, reader.
+//! The flight log: one flight, one MCAP file that holds all that is needed to refly it and opens
+//! without conversion in other people's viewers.
+//!
+//! The only crate that knows MCAP. [`FlightWriter`] writes, [`FlightReader`] reads; [`records`] says
+//! what is recorded, [`view`] what is added for viewers, [`fields`] what a struct's numbers are called.
+
+pub mod cdr;
+pub mod fields;
+mod reader;
+pub mod records;
+pub mod schema;
+mod setup;
+pub mod view;
+mod writer;
+
+use std::io;
+use std::path::Path;
+
+pub use reader::{Ending, FlightReader, Tick};
+pub use setup::{Identity, Setup};
+pub use writer::{Closed, FlightWriter};
+
+/// What can go wrong with a log.
+#[derive(Debug, thiserror::Error)]
+pub enum LogError {
+    /// The file cannot be opened.
+    #[error("cannot read {path}: {error}")]
+    Open {
+        /// Which.
+        path: String,
+        /// Why.
+        error: io::Error,
+    },
+    /// The file cannot be made.
+    #[error("cannot write {path}: {error}")]
+    Create {
+        /// Which.
+        path: String,
+        /// Why.
+        error: io::Error,
+    },
+    /// There is a file already.
+    #[error("{path} exists; name another file, or overwrite it with --force")]
+    Exists {
+        /// Which.
+        path: String,
+    },
+    /// The file is something else.
+    #[error("not a flight log: {0}")]
+    NotAFlight(String),
+    /// Another version wrote it.
+    #[error("the log's {what} is version {theirs}, this program's is {ours}")]
+    Version {
+        /// Of what.
+        what: &'static str,
+        /// Version in the log.
+        theirs: String,
+        /// Version here.
+        ours: &'static str,
+    },
+    /// Messages that do not make a flight.
+    #[error("the log's messages do not make a flight: {0}")]
+    Order(String),
+    /// A struct that has no form as a message.
+    #[error("cannot encode: {0}")]
+    Encode(String),
+    /// Bytes that are not the message they should be.
+    #[error("cannot decode a message: {0}")]
+    Decode(String),
+    /// MCAP's own errors.
+    #[error("log file: {0}")]
+    Mcap(#[from] mcap::McapError),
+    /// Reading or writing.
+    #[error("log file: {0}")]
+    Io(#[from] io::Error),
+    /// A type that is not recordable.
+    #[error(transparent)]
+    Fields(#[from] fields::NotRecordable),
+}
+
+impl LogError {
+    fn open(path: &Path, error: io::Error) -> Self {
+        Self::Open { path: path.display().to_string(), error }
+    }
+
+    fn create(path: &Path, error: io::Error) -> Self {
+        let path = path.display().to_string();
+        if error.kind() == io::ErrorKind::AlreadyExists {
+            Self::Exists { path }
+        } else {
+            Self::Create { path, error }
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! Reading a flight: a stream of ticks, every checksum validated before its bytes are used.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+use engine::State;
+use engine::inputs::DeviceEvent;
+use mcap::McapError;
+use mcap::records::Record;
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+
+use crate::records::{
+    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, STATE, StateRecord, TIMING,
+    TimingRecord, first_digest,
+};
+use crate::setup::{Identity, METADATA, Setup};
+use crate::{LogError, cdr};
+
+/// No record of a flight is larger than this; a length beyond it is damage, not data.
+const RECORD_BYTES_MAX: usize = 16 << 20;
+
+/// One tick as recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Device events, in order.
+    pub events: Vec<DeviceEvent>,
+    /// The world.
+    pub inputs: InputsRecord,
+    /// The state after it, with its digest.
+    pub record: StateRecord,
+    /// The bytes of the state, as recorded.
+    pub state_message: Vec<u8>,
+    /// Whether the digest is the one that follows from the digest before and this tick's messages.
+    pub chained: bool,
+}
+
+/// How the file ends.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// As the writer ended it.
+    Closed,
+    /// Short of its end: the program was killed, or the file was cut.
+    Truncated,
+    /// Bytes that do not belong there, from which on nothing is read.
+    Damaged(String),
+}
+
+/// A flight being read.
+pub struct FlightReader {
+    records: Records,
+    /// Files the flight was flown with.
+    pub setup: Setup,
+    /// Who flew it.
+    pub identity: Identity,
+    /// State at the start.
+    pub initial: State,
+    /// Whether the files and the state at the start are those of the first digest.
+    pub intact: bool,
+    chain: Chain,
+    pending: Pending,
+    /// Events in the order they were recorded.
+    pub happenings: Vec<EventRecord>,
+    /// How the ticks kept time; cleared by whoever takes them.
+    pub timings: Vec<TimingRecord>,
+    ending: Option<Ending>,
+}
+
+/// Messages of the tick under way.
+#[derive(Default)]
+struct Pending {
+    events: Vec<DeviceEvent>,
+    inputs: Option<InputsRecord>,
+}
+
+impl FlightReader {
+    /// Opens a log and reads up to the state at the start.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    pub fn open(path: &Path) -> Result<Self, LogError> {
+        let file = File::open(path).map_err(|error| LogError::open(path, error))?;
+        if file.metadata().map_err(|error| LogError::open(path, error))?.is_dir() {
+            return Err(LogError::NotAFlight("a folder".into()));
+        }
+        let mut records = Records::new(file);
+        let mut setup = Setup::default();
+        let mut found: Vec<&str> = Vec::new();
+        let mut identity = None;
+        loop {
+            match records.next() {
+                Some(Item::Metadata(name, facts)) if name == METADATA => {
+                    identity = Some(Identity(facts));
+                }
+                Some(Item::Attachment(name, data)) => {
+                    let Some(known) = Setup::NAMES.iter().find(|known| **known == name) else {
+                        continue;
+                    };
+                    let text = String::from_utf8(data)
+                        .map_err(|_| LogError::NotAFlight(format!("{name} is not text")))?;
+                    if let Some(file) = setup.file_mut(known) {
+                        *file = text;
+                        found.push(known);
+                    }
+                }
+                Some(Item::Message(topic, data)) if topic == STATE => {
+                    let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
+                    if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
+                        return Err(no_flight(&format!("{missing} is not in it")));
+                    }
+                    refuse_other_versions(&identity)?;
+                    let first: StateRecord = cdr::decode(&data)?;
+                    let digest = first_digest(&setup.files(), &cdr::encode(&first.state)?);
+                    return Ok(Self {
+                        records,
+                        setup,
+                        identity,
+                        initial: first.state,
+                        intact: digest == first.digest,
+                        chain: Chain::from(first.digest),
+                        pending: Pending::default(),
+                        happenings: Vec::new(),
+                        timings: Vec::new(),
+                        ending: None,
+                    });
+                }
+                Some(_) => {}
+                None => {
+                    return Err(match records.ending() {
+                        Ending::Damaged(why) => LogError::NotAFlight(why),
+                        _ if identity.is_some() => no_flight("it ends before the first state"),
+                        _ => no_flight("no `tiltrotor` metadata"),
+                    });
+                }
+            }
+        }
+    }
+
+    /// The next whole tick; `None` at the end of what can be read.
+    ///
+    /// # Errors
+    /// When the messages do not make a flight: out of order, missing, or of another layout.
+    pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
+        loop {
+            let Some(item) = self.records.next() else {
+                self.ending = Some(self.records.ending());
+                return Ok(None);
+            };
+            let Item::Message(topic, data) = item else { continue };
+            match topic.as_str() {
+                HARDWARE => {
+                    self.chain.add(&data);
+                    self.pending.events.push(cdr::decode(&data)?);
+                }
+                INPUTS => {
+                    self.chain.add(&data);
+                    let inputs: InputsRecord = cdr::decode(&data)?;
+                    if self.pending.inputs.replace(inputs).is_some() {
+                        return Err(LogError::Order(format!(
+                            "two inputs before the state of tick {}",
+                            inputs.tick + 1
+                        )));
+                    }
+                }
+                STATE => return self.close_tick(&data).map(Some),
+                TIMING => self.timings.push(cdr::decode(&data)?),
+                EVENTS => self.happenings.push(cdr::decode(&data)?),
+                _ => {}
+            }
+        }
+    }
+
+    fn close_tick(&mut self, data: &[u8]) -> Result<Tick, LogError> {
+        let record: StateRecord = cdr::decode(data)?;
+        let tick = record.state.tick;
+        let events = std::mem::take(&mut self.pending.events);
+        let inputs = self
+            .pending
+            .inputs
+            .take()
+            .ok_or_else(|| LogError::Order(format!("tick {tick} has no inputs")))?;
+        if events.len() as u64 != inputs.events {
+            return Err(LogError::Order(format!(
+                "tick {tick}: expected {} device events, got {}",
+                inputs.events,
+                events.len()
+            )));
+        }
+        // The state follows the digest.
+        let mut state_message = cdr::HEADER.to_vec();
+        state_message.extend_from_slice(&data[cdr::HEADER.len() + size_of::<u64>()..]);
+        let chained = self.chain.close(&state_message) == record.digest;
+        // From a break on, the chain goes on from what is recorded: one break is told once.
+        self.chain = Chain::from(record.digest);
+        Ok(Tick { events, inputs, record, state_message, chained })
+    }
+
+    /// How the file ends, once the last tick has been read.
+    pub fn ending(&self) -> Option<&Ending> {
+        self.ending.as_ref()
+    }
+}
+
+fn no_flight(why: &str) -> LogError {
+    LogError::NotAFlight(format!("an MCAP file, but not a tiltrotor flight: {why}"))
+}
+
+fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
+    let known = [
+        (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
+        (Identity::MODEL, "flight model", engine::MODEL_VERSION),
+    ];
+    for (key, what, ours) in known {
+        let theirs = identity.get(key);
+        if theirs != ours {
+            return Err(LogError::Version { what, theirs: theirs.into(), ours });
+        }
+    }
+    Ok(())
+}
+
+/// A record that matters.
+enum Item {
+    Metadata(String, BTreeMap<String, String>),
+    Attachment(String, Vec<u8>),
+    Message(String, Vec<u8>),
+}
+
+/// Records of the file, up to its end or the first damage.
+struct Records {
+    file: BufReader<File>,
+    reader: LinearReader,
+    topics: BTreeMap<u16, String>,
+    ending: Ending,
+    started: bool,
+}
+
+impl Records {
+    fn new(file: File) -> Self {
+        let options = LinearReaderOptions::default()
+            .with_prevalidate_chunk_crcs(true)
+            .with_validate_data_section_crc(true)
+            .with_validate_summary_section_crc(true)
+            .with_check_finishes_after_end_magic(true)
+            .with_record_length_limit(RECORD_BYTES_MAX);
+        Self {
+            file: BufReader::with_capacity(256 * 1024, file),
+            reader: LinearReader::new_with_options(options),
+            topics: BTreeMap::new(),
+            ending: Ending::Closed,
+            started: false,
+        }
+    }
+
+    fn ending(&self) -> Ending {
+        self.ending.clone()
+    }
+
+    fn next(&mut self) -> Option<Item> {
+        if self.ending != Ending::Closed {
+            return None;
+        }
+        match self.read() {
+            Ok(item) => item,
+            Err(McapError::UnexpectedEof) if self.started => {
+                self.ending = Ending::Truncated;
+                None
+            }
+            Err(McapError::BadMagic | McapError::UnexpectedEof) if !self.started => {
+                self.ending = Ending::Damaged("not an MCAP file".into());
+                None
+            }
+            Err(error) => {
+                self.ending = Ending::Damaged(error.to_string());
+                None
+            }
+        }
+    }
+
+    fn read(&mut self) -> Result<Option<Item>, McapError> {
+        while let Some(event) = self.reader.next_event() {
+            match event? {
+                LinearReadEvent::ReadRequest(wanted) => {
+                    let room = self.reader.insert(wanted);
+                    let read = self.file.read(room)?;
+                    self.reader.notify_read(read);
+                }
+                LinearReadEvent::Record { data, opcode } => {
+                    self.started = true;
+                    match mcap::parse_record(opcode, data)? {
+                        Record::Channel(channel) => {
+                            self.topics.insert(channel.id, channel.topic);
+                        }
+                        Record::Message { header, data } => {
+                            if let Some(topic) = self.topics.get(&header.channel_id) {
+                                return Ok(Some(Item::Message(topic.clone(), data.into_owned())));
+                            }
+                        }
+                        Record::Metadata(metadata) => {
+                            return Ok(Some(Item::Metadata(metadata.name, metadata.metadata)));
+                        }
+                        Record::Attachment { header, data, .. } => {
+                            return Ok(Some(Item::Attachment(header.name, data.into_owned())));
+                        }
+                        _ => {}
+                    }
+                }
+            }
+        }
+        Ok(None)
+    }
+}
