@@ -1,2 +1,55 @@
-//! tiltrotor.
-fn main() {}
+//! The `tiltrotor` command: flies, reflies, verifies and shows.
+
+mod demo;
+mod fly;
+mod identity;
+mod log;
+mod replay_live;
+mod report;
+mod verify;
+mod view;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// A deterministic, piloted simulation of the Bell XV-15, and the tooling around its log.
+#[derive(Parser)]
+#[command(version, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Fly in real time (or --fast) with a stick, a pilot model or a script.
+    Fly(fly::Args),
+    /// Refly a log, live in FlightGear.
+    Replay(replay_live::Args),
+    /// Does a log refly to the same bits? Exit 0 exact, 1 diverged, 2 not a usable log, 3 exact but
+    /// never closed.
+    Verify(verify::Args),
+    /// Show a log in the rerun viewer, or save it for the viewer.
+    View(view::Args),
+    /// What is in a log.
+    #[command(subcommand)]
+    Log(log::Command),
+    /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
+    Demo(demo::Args),
+}
+
+fn main() -> ExitCode {
+    let run = match Cli::parse().command {
+        Command::Fly(args) => fly::run(&args),
+        Command::Replay(args) => replay_live::run(&args),
+        Command::Verify(args) => verify::run(&args),
+        Command::View(args) => view::run(&args),
+        Command::Log(command) => log::run(&command),
+        Command::Demo(args) => demo::run(&args),
+    };
+    run.unwrap_or_else(|error| {
+        eprintln!("tiltrotor: {error:#}");
+        ExitCode::from(report::UNUSABLE)
+    })
+}

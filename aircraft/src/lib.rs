@@ -1,1 +1,70 @@
-//! The aircraft's data, and its reader.
+//! The aircraft's data, and its reader: TOML text to the engine's parameters.
+//!
+//! Nothing here opens a file; whoever does passes the text and the name to show in messages.
+//!
+//! - A key names its unit, and any unit of [`units`] will do: `radius_ft = 12.5` fills the engine's
+//!   `radius_m`.
+//! - Every number of an aircraft file is written with where it comes from and how far to trust it:
+//!   `radius_ft = { value = 12.5, source = "TMX §3.7", trust = "V" }`. Vectors are arrays of x, y, z.
+//!   A table has its arguments beside its values, the first argument's key first:
+//!   `nacelle_degps = { mast_tilt_deg = [0, 90], value = [7.8, 1.9], source = "…", trust = "…" }`.
+//! - What cannot be used is refused with file, line, key and what was expected: [`ConfigError`].
+
+mod check;
+mod error;
+mod read;
+mod tree;
+pub mod units;
+
+pub use error::{ConfigError, Problem};
+pub use tree::{Provenance, Trust};
+
+use engine::cockpit;
+use engine::start::Start;
+use tree::Numbers;
+
+/// The XV-15, to be read by [`aircraft`].
+pub const XV15: &str = include_str!("../xv15.toml");
+
+/// Cockpit map of the built-in pilots and scripts, to be read by [`cockpit`](cockpit()).
+pub const PILOT_MAP: &str = include_str!("../cockpit/pilot.toml");
+
+/// Cockpit map of a common USB stick, to be read by [`cockpit`](cockpit()).
+pub const STICK_MAP: &str = include_str!("../cockpit/stick.toml");
+
+/// Where a flight begins unless told otherwise, to be read by [`start`].
+pub const DEFAULT_SCENARIO: &str = include_str!("../scenario/default.toml");
+
+/// Reads an aircraft file. Its cockpit map is empty: that has a file of its own.
+pub fn aircraft(file_name: &str, text: &str) -> Result<engine::Aircraft, ConfigError> {
+    let tree = tree::parse(file_name, text, Numbers::Sourced)?.0;
+    check::ranges(file_name, &tree)?;
+    let aircraft = read::read(file_name, &tree)?;
+    check::aircraft(file_name, &tree, &aircraft)?;
+    Ok(aircraft)
+}
+
+/// Reads a cockpit map.
+pub fn cockpit(file_name: &str, text: &str) -> Result<cockpit::Params, ConfigError> {
+    bare(file_name, text)
+}
+
+/// Reads a scenario.
+pub fn start(file_name: &str, text: &str) -> Result<Start, ConfigError> {
+    bare(file_name, text)
+}
+
+/// Lists where the numbers of an aircraft file come from, in the file's order.
+pub fn provenance(file_name: &str, text: &str) -> Result<Vec<Provenance>, ConfigError> {
+    Ok(tree::parse(file_name, text, Numbers::Sourced)?.1)
+}
+
+/// Reads a file whose numbers carry no source.
+fn bare<'de, T: serde::de::DeserializeOwned>(
+    file_name: &str,
+    text: &'de str,
+) -> Result<T, ConfigError> {
+    let tree = tree::parse(file_name, text, Numbers::Bare)?.0;
+    check::ranges(file_name, &tree)?;
+    read::read(file_name, &tree)
+}

@@ -17,7 +17,7 @@ use crate::math::{clamp, sign};
 use crate::pair::Pair;
 
 /// What a device's axis can move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AxisControl {
     /// Longitudinal stick, aft positive, −1..1.
@@ -37,7 +37,7 @@ pub enum AxisControl {
 }
 
 /// What a device's button can do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ButtonControl {
     /// Nacelles towards the aeroplane while held.
@@ -61,7 +61,7 @@ pub enum ButtonControl {
 }
 
 /// What an axis does when its device is unplugged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WhenUnplugged {
     /// Stays where it was.
@@ -72,7 +72,7 @@ pub enum WhenUnplugged {
 }
 
 /// One axis of a device.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AxisBinding {
     /// The kernel's event code.
@@ -80,10 +80,10 @@ pub struct AxisBinding {
     /// What it moves.
     pub control: AxisControl,
     /// Raw value at one end of travel; with `raw_max`, from the device itself where it tells.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub raw_min: Option<i64>,
     /// Raw value at the other end.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub raw_max: Option<i64>,
     /// Whether the raw value falls as the control rises.
     #[serde(default)]
@@ -100,7 +100,7 @@ pub struct AxisBinding {
 }
 
 /// One button of a device.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ButtonBinding {
     /// The kernel's event code.
@@ -110,7 +110,7 @@ pub struct ButtonBinding {
 }
 
 /// One device of the map; its place in the list is its number in the log.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Device {
     /// The device's own name, or a part of it.
@@ -124,7 +124,7 @@ pub struct Device {
 }
 
 /// The cockpit map.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Devices, in the order of their numbers.

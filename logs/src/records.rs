@@ -1,5 +1,7 @@
 //! What is recorded, and on which channel.
 
+use std::fmt;
+
 use engine::inputs::World;
 use engine::{STEP_NS, State};
 use serde::{Deserialize, Serialize};
@@ -113,6 +115,28 @@ impl Happening {
     /// The one recorded as `kind`, if it is one.
     pub fn from_u64(kind: u64) -> Option<Self> {
         Self::ALL.into_iter().find(|known| *known as u64 == kind)
+    }
+}
+
+impl fmt::Display for EventRecord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = self.value;
+        match Happening::from_u64(self.kind) {
+            Some(Happening::Marker) => write!(f, "marker {value}"),
+            Some(Happening::Failures) => write!(f, "failures 0x{value:x}"),
+            Some(Happening::DeviceConnected) => write!(f, "device {value} connected"),
+            Some(Happening::DeviceDisconnected) => write!(f, "device {value} disconnected"),
+            Some(Happening::Validity) if value == 0 => write!(f, "within the model's validity"),
+            Some(Happening::Validity) => write!(f, "outside the model's validity: 0x{value:x}"),
+            Some(Happening::Paused) if value == 0 => write!(f, "goes on"),
+            Some(Happening::Paused) => write!(f, "paused"),
+            Some(Happening::WeightOnWheels) if value == 0 => write!(f, "lift-off"),
+            Some(Happening::WeightOnWheels) => write!(f, "touchdown"),
+            Some(Happening::Landed) if value == 0 => write!(f, "end of the flight"),
+            Some(Happening::Landed) => write!(f, "ended by the crew"),
+            Some(Happening::Phase) => write!(f, "pilot model's phase {value}"),
+            None => write!(f, "event of an unknown kind {}, value {value}", self.kind),
+        }
     }
 }
 

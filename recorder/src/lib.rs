@@ -1,1 +1,20 @@
-//! The piloted flight in real time.
+//! The piloted flight in real time: hands on the controls, the loop at 250 Hz, the log.
+//!
+//! [`fly`] runs a [`Flight`]. Each tick it takes the device events that came in, lets pilot models and
+//! scripts add theirs, hands all of it to the writer, steps the engine, and sends the picture to
+//! FlightGear. The loop waits for nothing but time.
+
+mod clock;
+mod flight;
+mod hands;
+mod narrator;
+pub mod pilots;
+pub mod script;
+pub mod statistics;
+#[cfg(feature = "sticks")]
+pub mod sticks;
+mod writer;
+
+pub use clock::Pace;
+pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};
+pub use hands::{Hands, Reach};

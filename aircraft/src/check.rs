@@ -1,0 +1,150 @@
+//! Numbers that the engine could not work with, refused before it meets them.
+
+use engine::math::PI;
+use engine::weight_balance::Inertia;
+
+use crate::error::{ConfigError, Problem};
+use crate::tree::{Node, Value};
+use crate::units;
+
+/// No quantity of an aircraft is larger than this in SI units: beyond it something would overflow
+/// sooner or later.
+const LARGEST: f64 = 1e9;
+/// What the engine divides by is at least this.
+const SMALLEST: f64 = 1e-6;
+
+/// Bounds in SI units, by the end of a key's table and the key. What is not here is within ±LARGEST.
+const BOUNDS: &[(&str, f64, f64)] = &[
+    // Divided by.
+    ("radius_m", SMALLEST, LARGEST),
+    ("solidity", SMALLEST, 1.0),
+    ("lock_number", SMALLEST, LARGEST),
+    ("polar_inertia_kg_m2", SMALLEST, LARGEST),
+    ("drive_inertia_kg_m2", 0.0, LARGEST),
+    ("area_m2", SMALLEST, LARGEST),
+    ("chord_m", SMALLEST, LARGEST),
+    ("aspect_ratio", SMALLEST, LARGEST),
+    ("span_efficiency", SMALLEST, LARGEST),
+    ("stall_rad", SMALLEST, PI),
+    ("immersed_speed_mps_max", SMALLEST, LARGEST),
+    ("dynamic_pressure_pa", SMALLEST, LARGEST),
+    ("rated_power_w", SMALLEST, LARGEST),
+    ("zero_fuel_mass_kg", SMALLEST, LARGEST),
+    ("stiffness_n_per_m", SMALLEST, LARGEST),
+    ("tread_stiffness_n_per_m", SMALLEST, LARGEST),
+    // Positive by their nature.
+    ("rotor_speed_radps", SMALLEST, LARGEST),
+    ("reference_radps2", SMALLEST, LARGEST),
+    ("rate_radps_max", SMALLEST, LARGEST),
+    ("torque_n_m_max", SMALLEST, LARGEST),
+    ("lift_coefficient_max", 0.0, LARGEST),
+    ("flapping_rad_max", 0.0, PI),
+    ("tread_damping_n_s_per_m", 0.0, LARGEST),
+    ("damping_n_s_per_m", 0.0, LARGEST),
+    ("stroke_m", 0.0, LARGEST),
+    ("fuel_kg", 0.0, LARGEST),
+    ("fuel_kg_max", 0.0, LARGEST),
+    ("wind_mps", 0.0, 100.0),
+    // A place that the map projection can hold.
+    ("latitude_rad", -1.55, 1.55),
+    ("longitude_rad", -PI, PI),
+    ("flap_detent", 0.0, engine::cockpit::FLAP_DETENT_LAST as f64),
+];
+
+/// A lag shorter than a tick would run away.
+const TIMES: (f64, f64) = (engine::STEP_S, LARGEST);
+
+fn error(file: &str, node: &Node, problem: Problem) -> ConfigError {
+    ConfigError { file: file.to_owned(), line: node.line, key: node.key.clone(), problem }
+}
+
+/// Refuses numbers out of their bounds, and least values that are not below the greatest.
+pub(crate) fn ranges(file: &str, tree: &Node) -> Result<(), ConfigError> {
+    let Value::Table(nodes) = &tree.value else { return Ok(()) };
+    for (name, node) in nodes {
+        let bounds = BOUNDS
+            .iter()
+            .find(|(key, ..)| key == name)
+            .map(|&(_, min, max)| (min, max))
+            .or_else(|| name.ends_with("_s").then_some(TIMES))
+            .unwrap_or((-LARGEST, LARGEST));
+        within(file, node, bounds)?;
+        let greatest = name
+            .strip_suffix("_min")
+            .and_then(|stem| nodes.iter().find(|(other, _)| *other == format!("{stem}_max")));
+        if let Some((_, greatest)) = greatest
+            && let (Some(low), Some(high)) = (node.value.number(), greatest.value.number())
+            && low >= high
+        {
+            return Err(error(file, node, Problem::Crossed { other: greatest.key.clone() }));
+        }
+    }
+    Ok(())
+}
+
+/// Every number of the node within its bounds; members of a table have their own.
+fn within(file: &str, node: &Node, (min, max): (f64, f64)) -> Result<(), ConfigError> {
+    match &node.value {
+        Value::Table(_) => ranges(file, node),
+        Value::Array(nodes) => nodes.iter().try_for_each(|node| within(file, node, (min, max))),
+        value => match value.number() {
+            Some(found) if found < min || found > max => {
+                Err(error(file, node, Problem::OutOfRange { min, max, found }))
+            }
+            _ => Ok(()),
+        },
+    }
+}
+
+/// Refuses tables that cannot be looked up, and inertias that cannot be inverted.
+pub(crate) fn aircraft(
+    file: &str,
+    tree: &Node,
+    aircraft: &engine::Aircraft,
+) -> Result<(), ConfigError> {
+    if let Some((name, expected)) = aircraft.fault() {
+        return Err(error(file, find(tree, name), Problem::BadTable(expected)));
+    }
+    let weights = &aircraft.weight_balance;
+    let (upright, change) = (&weights.inertia, &weights.inertia_change);
+    let level = Inertia {
+        xx_kg_m2: upright.xx_kg_m2 + change.xx_kg_m2,
+        yy_kg_m2: upright.yy_kg_m2 + change.yy_kg_m2,
+        zz_kg_m2: upright.zz_kg_m2 + change.zz_kg_m2,
+        xz_kg_m2: upright.xz_kg_m2 + change.xz_kg_m2,
+    };
+    for (inertia, name) in
+        [(upright, "weight_balance.inertia"), (&level, "weight_balance.inertia_change")]
+    {
+        if !is_a_body(inertia) {
+            return Err(error(file, find(tree, name), Problem::Inertia));
+        }
+    }
+    Ok(())
+}
+
+fn is_a_body(inertia: &Inertia) -> bool {
+    let Inertia { xx_kg_m2: xx, yy_kg_m2: yy, zz_kg_m2: zz, xz_kg_m2: xz } = *inertia;
+    xx > 0.0 && yy > 0.0 && zz > 0.0 && xx * zz > xz * xz
+}
+
+/// The node that the engine calls `name`: its keys without their units.
+fn find<'a>(tree: &'a Node, name: &str) -> &'a Node {
+    let (first, rest) = name.split_once('.').map_or((name, None), |(a, b)| (a, Some(b)));
+    let (stem, bound) = units::without_bound(first);
+    let Value::Table(nodes) = &tree.value else { return tree };
+    let called = |key: &str| {
+        let unit = key.strip_prefix(stem).and_then(|unit| unit.strip_suffix(bound));
+        unit.is_some_and(|unit| unit.is_empty() || unit.starts_with('_'))
+    };
+    // The key itself counts before a longer one that begins alike.
+    let found = nodes
+        .iter()
+        .find(|(key, _)| key == first)
+        .or_else(|| nodes.iter().find(|(key, _)| called(key)));
+    match (found, rest) {
+        (Some((_, node)), Some(rest)) => find(node, rest),
+        (Some((_, node)), None) => node,
+        (None, _) => tree,
+    }
+}

@@ -1,0 +1,346 @@
+//! What a file with one thing wrong in it is told. Each test changes one line of a good file.
+
+use aircraft::XV15;
+
+/// The line, from 1, that begins with `start` behind the header `table`.
+fn line_of(text: &str, table: &str, start: &str) -> usize {
+    let lines: Vec<_> = text.lines().collect();
+    let header = lines.iter().position(|line| *line == format!("[{table}]")).unwrap();
+    header + 1 + lines[header..].iter().position(|line| line.starts_with(start)).unwrap()
+}
+
+/// The XV-15 with the line that begins with `start` behind `[table]` replaced, and that line.
+fn with_line(table: &str, start: &str, new: &str) -> (String, usize) {
+    let line = line_of(XV15, table, start);
+    let mut lines: Vec<_> = XV15.lines().collect();
+    lines[line - 1] = new;
+    (lines.join("\n"), line)
+}
+
+#[track_caller]
+fn told(text: &str, message: &str) {
+    let error = aircraft::aircraft("xv15.toml", text).unwrap_err();
+    assert_eq!(error.to_string(), message);
+}
+
+/// Replaces a line, and expects to be told `message` about that line.
+#[track_caller]
+fn changed(table: &str, start: &str, new: &str, message: &str) {
+    let (text, line) = with_line(table, start, new);
+    told(&text, &format!("xv15.toml:{line}: {message}"));
+}
+
+const SOURCED: &str = "source = \"TMX\", trust = \"V\" }";
+
+#[test]
+fn a_syntax_error() {
+    let (text, line) = with_line("rotors", "radius_ft", "radius_ft = = 1");
+    let error = aircraft::aircraft("xv15.toml", &text).unwrap_err().to_string();
+    assert!(error.starts_with(&format!("xv15.toml:{line}: not valid TOML: ")), "{error}");
+}
+
+#[test]
+fn an_unknown_key() {
+    changed(
+        "rotors",
+        "radius_ft",
+        &format!("chrod_in = {{ value = 14.0, {SOURCED}"),
+        "rotors.chrod_in: unknown key; expected one of radius_m, solidity, lift_slope_per_rad, \
+         lift_coefficient_max, drag_coefficient_min, drag_coefficient_per_lift2, \
+         induced_power_factor, lock_number, hub_spring_n_m_per_rad, flapping_rad_max, \
+         polar_inertia_kg_m2, pivot_m, mast_length_m, mast_cant_rad \
+         (or the same in another unit)",
+    );
+}
+
+#[test]
+fn a_missing_key_is_told_with_its_tables_line() {
+    let (text, _) = with_line("rotors", "radius_ft", "");
+    let table = line_of(XV15, "rotors", "[rotors]");
+    told(
+        &text,
+        &format!("xv15.toml:{table}: rotors: missing key radius_m (or the same in another unit)"),
+    );
+}
+
+#[test]
+fn a_missing_table() {
+    told("name = \"nothing\"", "xv15.toml:1: missing key fcc");
+}
+
+#[test]
+fn a_string_for_a_number() {
+    changed(
+        "rotors",
+        "solidity",
+        &format!("solidity = {{ value = \"thick\", {SOURCED}"),
+        "rotors.solidity: expected a number, found a string",
+    );
+}
+
+#[test]
+fn a_number_for_a_vector() {
+    changed(
+        "rotors",
+        "pivot_in",
+        &format!("pivot_in = {{ value = 300.0, {SOURCED}"),
+        "rotors.pivot_in: expected an array of 3, found a number",
+    );
+}
+
+#[test]
+fn a_vector_of_two() {
+    changed(
+        "rotors",
+        "pivot_in",
+        &format!("pivot_in = {{ value = [300.0, 193.0], {SOURCED}"),
+        "rotors.pivot_in: expected an array of 3, found one of 2",
+    );
+}
+
+#[test]
+fn a_string_in_a_vector() {
+    changed(
+        "rotors",
+        "pivot_in",
+        &format!("pivot_in = {{ value = [300.0, \"far\", 100.0], {SOURCED}"),
+        "rotors.pivot_in.value[1]: expected a number, found a string",
+    );
+}
+
+#[test]
+fn a_table_where_a_number_belongs() {
+    changed(
+        "rotors",
+        "solidity",
+        &format!("solidity = {{ value = {{ x = 1 }}, {SOURCED}"),
+        "rotors.solidity.value: expected a number, found a table",
+    );
+}
+
+#[test]
+fn a_number_without_its_source() {
+    changed(
+        "rotors",
+        "radius_ft",
+        "radius_ft = 12.5",
+        "rotors.radius_ft: a number without its source; expected { value = 12.5, source = \"...\", \
+         trust = \"...\" }",
+    );
+}
+
+#[test]
+fn a_source_a_trust_or_a_value_forgotten() {
+    let expected = "expected { value = ..., source = \"...\", trust = \"...\" }";
+    for (new, what) in [
+        ("radius_ft = { value = 12.5, trust = \"V\" }", "source"),
+        ("radius_ft = { value = 12.5, source = \" \", trust = \"V\" }", "source"),
+        ("radius_ft = { value = 12.5, source = \"TMX\" }", "trust"),
+        ("radius_ft = { source = \"TMX\", trust = \"V\" }", "value"),
+    ] {
+        changed("rotors", "radius_ft", new, &format!("rotors.radius_ft: no {what}; {expected}"));
+    }
+}
+
+#[test]
+fn an_unknown_trust_label() {
+    changed(
+        "rotors",
+        "radius_ft",
+        "radius_ft = { value = 12.5, source = \"TMX\", trust = \"W\" }",
+        "rotors.radius_ft: unknown trust label `W`; expected one of V, V-fig, V-sec, R+, R?, E",
+    );
+}
+
+#[test]
+fn a_stray_key_beside_a_value() {
+    changed(
+        "rotors",
+        "radius_ft",
+        &format!("radius_ft = {{ value = 12.5, sauce = \"TMX\", {SOURCED}"),
+        "rotors.radius_ft.sauce: unknown key; expected one of value, source, trust, note",
+    );
+}
+
+#[test]
+fn the_same_quantity_in_two_units() {
+    let line = line_of(XV15, "rotors", "radius_ft");
+    changed(
+        "rotors",
+        "solidity",
+        &format!("radius_m = {{ value = 3.81, {SOURCED}"),
+        &format!(
+            "rotors.radius_m: given twice: rotors.radius_ft on line {line} is the same in another \
+             unit"
+        ),
+    );
+}
+
+#[test]
+fn numbers_that_are_none() {
+    for (number, shown) in [("nan", "nan"), ("-inf", "-inf"), ("1e999", "1e999")] {
+        changed(
+            "rotors",
+            "radius_ft",
+            &format!("radius_ft = {{ value = {number}, {SOURCED}"),
+            &format!("rotors.radius_ft.value: expected a finite number, found {shown}"),
+        );
+    }
+}
+
+#[test]
+fn a_number_the_engine_would_divide_by() {
+    changed(
+        "rotors",
+        "radius_ft",
+        &format!("radius_ft = {{ value = 0.0, {SOURCED}"),
+        "rotors.radius_ft: expected 1e-6 to 1000000000.0 in SI units, found 0.0",
+    );
+    changed(
+        "engines",
+        "lag_s",
+        &format!("lag_s = {{ value = 0.001, {SOURCED}"),
+        "engines.lag_s: expected 0.004 to 1000000000.0 in SI units, found 0.001",
+    );
+}
+
+#[test]
+fn a_number_that_would_overflow() {
+    changed(
+        "engines",
+        "jet_thrust_lbf",
+        &format!("jet_thrust_n = {{ value = 1e300, {SOURCED}"),
+        "engines.jet_thrust_n: expected -1000000000.0 to 1000000000.0 in SI units, found 1e300",
+    );
+}
+
+#[test]
+fn travel_the_wrong_way_round() {
+    changed(
+        "actuators.rudder",
+        "deg_min",
+        &format!("deg_min = {{ value = 30.0, {SOURCED}"),
+        "actuators.rudder.deg_min: expected less than actuators.rudder.deg_max",
+    );
+}
+
+#[test]
+fn an_inertia_of_no_body() {
+    let (text, _) = with_line(
+        "weight_balance.inertia_change",
+        "xx_slug_ft2",
+        &format!("xx_slug_ft2 = {{ value = -6e4, {SOURCED}"),
+    );
+    let table = "weight_balance.inertia_change";
+    let line = line_of(XV15, table, "[");
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{line}: {table}: no body has this inertia; expected positive moments with \
+             xx*zz above xz squared"
+        ),
+    );
+}
+
+#[test]
+fn a_table_that_does_not_ascend() {
+    let table = "actuators.nacelle_degps";
+    let (text, line) =
+        with_line(table, "mast_tilt_deg", "mast_tilt_deg = [-5.0, 2.0, 1.0, 87.0, 87.5, 90.0]");
+    told(
+        &text,
+        &format!("xv15.toml:{}: {table}: bad table; expected ascending arguments", line - 1),
+    );
+}
+
+#[test]
+fn a_table_with_a_value_missing_is_found_by_its_engine_name() {
+    let table = "fcc.governor.collective_deg_min";
+    let (text, line) = with_line(table, "value", "value = [1.0, 2.0]");
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{}: {table}: bad table; expected as many values as arguments",
+            line - 2
+        ),
+    );
+}
+
+#[test]
+fn a_table_over_the_wrong_arguments() {
+    let table = "fcc.mixer.cyclic_per_pedal_deg_per_in";
+    let (text, line) = with_line(table, "airspeed_kt", "");
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{}: {table}: expected a table over mast_tilt_rad, airspeed_mps (or \
+             the same in another unit), found mast_tilt_rad",
+            line - 2
+        ),
+    );
+}
+
+#[test]
+fn a_number_where_a_table_belongs() {
+    let table = "actuators.nacelle_degps";
+    let (text, line) = with_line(table, "mast_tilt_deg", "");
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{}: {table}: expected a table over mast_tilt_rad (or the same in \
+             another unit), found no arguments",
+            line - 1
+        ),
+    );
+}
+
+#[test]
+fn a_control_that_no_cockpit_has() {
+    let map = "[[device]]\nname = \"stick\"\nbutton = [\n    { code = 1, control = \"eject\" },\n]";
+    let error = aircraft::cockpit("stick.toml", map).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "stick.toml:4: device[0].button[0].control: unknown name `eject`; expected one of \
+         nacelle_forward, nacelle_aft, flap_down, flap_up, gear_toggle, parking_brake_toggle, \
+         scas_toggle, rpm_select, marker"
+    );
+}
+
+#[test]
+fn a_code_that_is_no_whole_number() {
+    for (code, found) in [("-1", "a number"), ("1.5", "a number"), ("true", "true or false")] {
+        let map = format!(
+            "[[device]]\nname = \"s\"\nbutton = [{{ code = {code}, control = \"marker\" }}]"
+        );
+        let error = aircraft::cockpit("stick.toml", &map).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "stick.toml:3: device[0].button[0].code: expected a whole number from 0, found \
+                 {found}"
+            )
+        );
+    }
+}
+
+#[test]
+fn a_start_beyond_the_pole() {
+    let text = aircraft::DEFAULT_SCENARIO.replace("19.7203", "100.0");
+    let error = aircraft::start("default.toml", &text).unwrap_err().to_string();
+    assert!(error.contains(": origin.latitude_deg: expected -1.55 to 1.55 in SI units"), "{error}");
+}
+
+/// Whatever a line is replaced by, the answer is a message about the file, never a panic.
+#[test]
+fn any_line_may_be_missing_or_nonsense() {
+    let lines: Vec<_> = XV15.lines().collect();
+    for i in 0..lines.len() {
+        for nonsense in ["", "x = 1", "]"] {
+            let mut changed = lines.clone();
+            changed[i] = nonsense;
+            if let Err(error) = aircraft::aircraft("xv15.toml", &changed.join("\n")) {
+                assert!(error.to_string().starts_with("xv15.toml:"), "{error}");
+            }
+        }
+    }
+}

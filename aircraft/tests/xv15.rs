@@ -1,0 +1,311 @@
+//! The XV-15's file as the engine sees it.
+
+use engine::aero::{Motion, wing_pylon};
+use engine::frames::{Body, Vec3};
+use engine::math::{PI, sqrt, square};
+use engine::{Aircraft, GRAVITY_MPS2, Inputs, State, rotors};
+
+const DEG: f64 = PI / 180.0;
+const LBF: f64 = 4.448_221_615_260_5;
+const DENSITY: f64 = engine::environment::DENSITY_SL_KG_PER_M3;
+
+fn xv15() -> Aircraft {
+    aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[track_caller]
+fn close(a: f64, b: f64) {
+    assert!((a / b - 1.0).abs() < 1e-9, "{a} is not {b}");
+}
+
+#[test]
+fn numbers_arrive_in_si() {
+    let xv15 = xv15();
+    close(xv15.rotors.radius_m, 3.81);
+    close(xv15.rotors.pivot_m.y, 4.9022);
+    close(xv15.rotors.flapping_rad_max, PI / 15.0);
+    close(xv15.fcc.governor.rotor_speed_radps[0], 589.0 * PI / 30.0);
+    close(xv15.fcc.mixer.flap_rad[2], 40.0 * DEG);
+    close(xv15.engines.rated_power_w, 1375.0 * 745.699_871_582_270_2);
+    close(xv15.weight_balance.zero_fuel_mass_kg, 11_525.0 * 0.453_592_37);
+    close(xv15.landing_gear.nose.tyre_m.x, 137.0 * 0.0254);
+}
+
+#[test]
+fn tables_arrive_in_si() {
+    let mixer = xv15().fcc.mixer;
+    close(mixer.collective_per_lever_rad_per_m.at(0.0), 1.6 * DEG / 0.0254);
+    close(mixer.collective_per_lever_rad_per_m.at(45.0 * DEG), 0.5 * (0.92 + 0.71) * DEG / 0.0254);
+    close(
+        mixer.cyclic_per_pedal_rad_per_m.at(60.0 * DEG, 80.0 * 1852.0 / 3600.0),
+        0.52 * DEG / 0.0254,
+    );
+}
+
+#[test]
+fn every_number_names_its_source() {
+    let numbers = aircraft::provenance("xv15.toml", aircraft::XV15).unwrap();
+    assert!(numbers.len() > 150, "{} numbers", numbers.len());
+    assert!(numbers.iter().all(|number| !number.source.is_empty()));
+    let radius = numbers.iter().find(|number| number.key == "rotors.radius_ft").unwrap();
+    assert_eq!((radius.source.as_str(), radius.trust.label()), ("TMX §3.7", "V"));
+}
+
+/// An estimate nobody can follow is not one: it says how, or that it is a bare one.
+#[test]
+fn every_estimate_from_a_document_says_how() {
+    for number in aircraft::provenance("xv15.toml", aircraft::XV15).unwrap() {
+        let bare = number.source == "estimate" || number.key.ends_with("tyre_in");
+        assert!(
+            number.trust != aircraft::Trust::Estimate || bare || number.note.is_some(),
+            "{} has no note",
+            number.key
+        );
+    }
+}
+
+#[test]
+fn cockpit_maps_and_scenario_load() {
+    for (name, map) in [("pilot.toml", aircraft::PILOT_MAP), ("stick.toml", aircraft::STICK_MAP)] {
+        let map = aircraft::cockpit(name, map).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(map.device.len(), 1);
+    }
+    let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
+    close(start.fuel_kg, 1475.0 * 0.453_592_37);
+    close(start.origin.latitude_rad, 19.7203 * DEG);
+}
+
+// ------------------------------------------------------------------------------------ rotor
+
+fn hovering(collective_rad: f64) -> rotors::Inputs {
+    rotors::Inputs {
+        motion: Motion {
+            cg_m: Vec3::new(7.65, 0.0, 2.074),
+            airspeed_mps: Vec3::zero(),
+            angular_rate_radps: Vec3::zero(),
+            density_kg_per_m3: DENSITY,
+        },
+        mast_tilt_rad: 0.0,
+        mast_tilt_rate_radps: 0.0,
+        rotor_speed_radps: 589.0 * PI / 30.0,
+        collective_rad,
+        cyclic_forward_rad: 0.0,
+        hub_height_m: 1e9,
+    }
+}
+
+/// A rotor far from the ground, its inflow settled.
+struct Hover {
+    collective_rad: f64,
+    thrust_n: f64,
+    induced_mps: f64,
+    c_t: f64,
+    c_p: f64,
+}
+
+fn hover(params: &rotors::Params, collective_rad: f64) -> Hover {
+    let inputs = hovering(collective_rad);
+    let mut state = rotors::State { induced_mps: 10.0, ..rotors::State::default() };
+    for _ in 0..2_000 {
+        let (rate, _) = rotors::rotor(params, &state, &inputs);
+        state.induced_mps += engine::STEP_S * rate.induced_mps2;
+    }
+    let (_, out) = rotors::rotor(params, &state, &inputs);
+    let tip_mps = inputs.rotor_speed_radps * params.radius_m;
+    let c_t = out.thrust_n / (DENSITY * params.disc_area_m2() * square(tip_mps));
+    let c_p = out.power_w / (DENSITY * params.disc_area_m2() * square(tip_mps) * tip_mps);
+    Hover { collective_rad, thrust_n: out.thrust_n, induced_mps: out.induced_mps, c_t, c_p }
+}
+
+/// The hover with this thrust coefficient.
+fn hover_at(params: &rotors::Params, c_t: f64) -> Hover {
+    let (mut low, mut high) = (-5.0 * DEG, 20.0 * DEG);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if hover(params, middle).c_t < c_t {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    hover(params, low)
+}
+
+/// CR-2017-219486 Table A-2 (OARF run 15): CT, figure of merit, for .06 < CT/sigma < .15.
+const OARF: [(f64, f64); 4] =
+    [(0.007_391, 0.7641), (0.010_104, 0.7866), (0.011_063, 0.7881), (0.013_089, 0.7797)];
+
+/// The test facilities disagree by .04; the validation plan takes half of it.
+const FIGURE_OF_MERIT_TOLERANCE: f64 = 0.02;
+
+#[test]
+fn val_figure_of_merit_is_that_of_the_oarf_hover_test() {
+    let rotors = xv15().rotors;
+    for (c_t, measured) in OARF {
+        let at = hover_at(&rotors, c_t);
+        let merit = at.c_t * sqrt(at.c_t / 2.0) / at.c_p;
+        println!(
+            "CT {c_t}: {merit:.4}, measured {measured}, collective {:.2} deg",
+            at.collective_rad / DEG
+        );
+        assert!((merit - measured).abs() < FIGURE_OF_MERIT_TOLERANCE, "CT {c_t}: {merit}");
+    }
+}
+
+/// The collective's zero is another one in every source; its slope, .00093 per degree, is not.
+#[test]
+fn val_thrust_grows_with_collective_as_in_the_oarf_hover_test() {
+    let rotors = xv15().rotors;
+    let (low, high) = (hover_at(&rotors, 0.0091), hover_at(&rotors, 0.0111));
+    let slope_per_deg = (high.c_t - low.c_t) / (high.collective_rad - low.collective_rad) * DEG;
+    assert!((slope_per_deg / 0.000_93 - 1.0).abs() < 0.07, "{slope_per_deg}");
+}
+
+// ----------------------------------------------------------------------------- whole aircraft
+
+/// Download over thrust with the flaps at a detent.
+fn download(xv15: &Aircraft, detent: usize) -> f64 {
+    let at = hover_at(&xv15.rotors, 0.0105);
+    let load = wing_pylon::half_wing(
+        &xv15.wing_pylon,
+        &wing_pylon::Inputs {
+            motion: hovering(0.0).motion,
+            mast_tilt_rad: 0.0,
+            thrust_axis: xv15.rotors.thrust_axis(0.0),
+            induced_mps: at.induced_mps,
+            flap_rad: xv15.fcc.mixer.flap_rad[detent],
+            flaperon_rad: 0.0,
+        },
+    );
+    load.force_n.z / at.thrust_n
+}
+
+/// CR176970: 10 to 12 % with the flaps at 40/25, and less the further they are down.
+#[test]
+fn val_download_in_hover_is_that_of_the_flight_test() {
+    let xv15 = xv15();
+    let downloads = [0, 1, 2, 3].map(|detent| download(&xv15, detent));
+    println!("download {downloads:.4?}");
+    assert!((0.10..0.12).contains(&downloads[2]));
+    assert!(downloads.is_sorted_by(|more, less| more > less));
+    assert!((0.125..0.15).contains(&downloads[0]) && (0.08..0.10).contains(&downloads[3]));
+}
+
+fn started(xv15: &Aircraft) -> State {
+    let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
+    start.state(xv15)
+}
+
+#[test]
+fn the_aircraft_starts_at_rest_on_its_wheels() {
+    let xv15 = xv15();
+    let state = started(&xv15);
+    let inputs = Inputs { events: &[], world: Default::default() };
+    let (next, out) = engine::step(&xv15, &state, &inputs);
+    println!("{:?} {:?}", out.euler, state.plant.velocity_mps);
+    println!("{:?}", out.landing_gear);
+    println!("rpm {} power {:?} rotors {:?}", out.rotor_speed_radps, out.engines, out.rotors);
+    println!("coll {:?}", out.actuators);
+    assert!(next.is_finite() && next.frozen == 0);
+    assert!(out.euler.pitch_rad.abs() < 3.0 * DEG && out.euler.roll_rad.abs() < 0.1 * DEG);
+    assert!(state.plant.velocity_mps.norm() < 0.02, "{:?}", state.plant.velocity_mps);
+    assert_eq!(state.plant.weight_on_wheels, 1);
+    let legs = out.landing_gear;
+    let push_n = legs.nose.push_n + legs.main.map(|leg| leg.push_n).sum();
+    let weight_n = 13_000.0 * LBF / 9.806_65 * GRAVITY_MPS2;
+    assert!(legs.nose.push_n > 0.0 && push_n > 0.8 * weight_n);
+}
+
+#[test]
+fn scratch_hover() {
+    let xv15 = xv15();
+    let mut state = started(&xv15);
+    // lift off with constant lever: find lever in steady hover by height feedback on the lever
+    let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap();
+    let mut craft = xv15.clone();
+    craft.cockpit = map;
+    let mut lever = 0.0_f64;
+    let mut integral = 0.55;
+    let mut stick = 0.0_f64;
+    for tick in 0..250 * 120 {
+        let h = -state.plant.position_m.z;
+        let vz = -state.plant.velocity_mps.z;
+        let target = if tick < 2500 { 2.0 } else { 40.0 };
+        let climb = (0.3 * (target - h)).clamp(-2.0, 2.0);
+        let e = climb - vz;
+        if tick > 500 {
+            integral += 0.0004 * e;
+        }
+        let l = (integral + 0.06 * e).clamp(0.0, 1.0);
+        lever += (l - lever).clamp(-0.002, 0.002);
+        let eu = state.plant.attitude.euler();
+        let fwd = state.plant.velocity_mps.x * eu.heading_rad.cos()
+            + state.plant.velocity_mps.y * eu.heading_rad.sin();
+        let pitch_ref = (0.03 * fwd).clamp(-0.2, 0.2);
+        stick = (2.0 * (pitch_ref - eu.pitch_rad) - 1.0 * state.plant.angular_rate_radps.y)
+            .clamp(-1.0, 1.0);
+        let right_v = -state.plant.velocity_mps.x * eu.heading_rad.sin()
+            + state.plant.velocity_mps.y * eu.heading_rad.cos();
+        let roll = (2.0 * (-0.03 * right_v - eu.roll_rad) - state.plant.angular_rate_radps.x)
+            .clamp(-1.0, 1.0);
+        let ev = |code, v: f64| engine::inputs::DeviceEvent {
+            tick,
+            kernel_time_ns: 0,
+            device: 0,
+            kind: 1,
+            code,
+            value: (v * 32767.0) as i64,
+        };
+        let events = [ev(0, roll), ev(1, stick), ev(6, lever)];
+        let (next, out) =
+            engine::step(&craft, &state, &Inputs { events: &events, world: Default::default() });
+        if tick % 500 == 499 {
+            println!(
+                "t {:.0} h {:.2} vz {:.2} lever {:.3} coll {:.2} rpm {:.1} P {:.0} kW Prot {:.0} T {:.0} lb dl {:.3} pitch {:.2} fwd {:.2} B1 {:.2} el {:.2} roll {:.2} fuel {:.0} lb/h stickin {:.2}",
+                tick as f64 * 0.004,
+                h,
+                vz,
+                lever,
+                out.actuators.collective_rad.mean() / DEG,
+                out.rotor_speed_radps * 30.0 / PI,
+                out.engines.power_w.sum() / 1e3,
+                out.rotors.map(|r| r.power_w).sum() / 1e3,
+                out.rotors.map(|r| r.thrust_n).sum() / LBF,
+                out.loads.wing_pylon.map(|l| l.force_n.z).sum()
+                    / out.rotors.map(|r| r.thrust_n).sum(),
+                out.euler.pitch_rad / DEG,
+                fwd,
+                out.actuators.cyclic_forward_rad.mean() / DEG,
+                out.actuators.elevator_rad / DEG,
+                out.euler.roll_rad / DEG,
+                out.engines.fuel_flow_kg_per_s * 3600.0 / 0.45359237,
+                -out.actuators.elevator_rad / DEG / 4.735
+            );
+        }
+        state = next;
+    }
+    let _: Vec3<Body> = Vec3::zero();
+}
+#[test]
+fn scratch_idle() {
+    let xv15 = xv15();
+    let mut state = started(&xv15);
+    for tick in 0..250 * 40 {
+        let (next, out) =
+            engine::step(&xv15, &state, &Inputs { events: &[], world: Default::default() });
+        if tick % 500 == 0 {
+            println!(
+                "t {:.0} rpm {:.2} coll {:.2} T {:.0} P {:.0} vz {:.4} pitch {:.3} push {:.0}",
+                tick as f64 * 0.004,
+                out.rotor_speed_radps * 30.0 / PI,
+                out.actuators.collective_rad.mean() / DEG,
+                out.rotors.map(|r| r.thrust_n).sum(),
+                out.rotors.map(|r| r.power_w).sum(),
+                state.plant.velocity_mps.z,
+                out.euler.pitch_rad / DEG,
+                out.landing_gear.nose.push_n + out.landing_gear.main.map(|l| l.push_n).sum()
+            );
+        }
+        state = next;
+    }
+}

@@ -1,0 +1,39 @@
+//! Whatever moves the controls: hardware, a pilot model, a script. All of them speak in raw device
+//! events, so that all of them take the path that hardware takes.
+
+use engine::Outputs;
+use engine::inputs::{DeviceEvent, EventKind, World};
+
+/// What hands may touch in one tick.
+pub struct Reach<'a> {
+    /// Tick whose step uses it.
+    pub tick: u64,
+    /// Device events, appended in order.
+    pub events: &'a mut Vec<DeviceEvent>,
+    /// The world.
+    pub world: &'a mut World,
+    /// Number and name of the phase of the flight, for the log.
+    pub phase: &'a mut (u64, &'static str),
+    /// Set to end the flight.
+    pub done: &'a mut bool,
+}
+
+impl Reach<'_> {
+    /// Adds a device event of this tick.
+    pub fn send(&mut self, device: u64, kind: EventKind, code: u64, value: i64) {
+        self.events.push(DeviceEvent {
+            tick: self.tick,
+            kernel_time_ns: 0,
+            device,
+            kind: kind as u64,
+            code,
+            value,
+        });
+    }
+}
+
+/// Moves controls.
+pub trait Hands: Send {
+    /// What it does in this tick, having seen the aircraft after the one before.
+    fn act(&mut self, seen: &Outputs, reach: &mut Reach<'_>);
+}

@@ -1,0 +1,269 @@
+//! Scripts: timed events in TOML, played on the virtual device.
+//!
+//! ```toml
+//! [[event]]
+//! at_s = 2.0
+//! over_s = 0.5               # axes move there in this time; 0 when left out
+//! axis = { stick_aft = 0.2, collective = 0.6 }
+//!
+//! [[event]]
+//! at_s = 5.0
+//! press = ["marker"]         # pressed and released at once
+//! hold = ["nacelle_forward"] # pressed until released
+//! release = []
+//! fail = ["engine_left"]
+//! mend = []
+//! wind = { from_deg = 270.0, kt = 15.0 }
+//! end = false                # true ends the flight
+//! ```
+
+use std::collections::BTreeMap;
+
+use engine::cockpit::{self, AxisControl, ButtonControl};
+use engine::frames::Vec3;
+use engine::inputs::failures;
+use engine::math::{PI, cos, sin};
+use engine::{Outputs, STEP_S};
+use serde::Deserialize;
+
+use crate::hands::{Hands, Reach};
+use crate::pilots::VirtualDevice;
+
+/// Why a script cannot be played.
+#[derive(Debug, thiserror::Error)]
+pub enum ScriptError {
+    /// Not as the grammar wants it.
+    #[error("{file}:{line}: {what}")]
+    Syntax {
+        /// File.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong, and what was expected.
+        what: String,
+    },
+    /// A number that no control has.
+    #[error("{file}: event {number} (at {at_s} s): {what}")]
+    Event {
+        /// File.
+        file: String,
+        /// Which event, from 1.
+        number: usize,
+        /// Its time.
+        at_s: f64,
+        /// What is wrong, and what was expected.
+        what: String,
+    },
+    /// The cockpit map lacks the virtual device.
+    #[error("the cockpit map has no device called `{}`, which scripts use", crate::pilots::DEVICE)]
+    NoDevice,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    event: Vec<Event>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Failure {
+    EngineLeft,
+    EngineRight,
+    ScasPitch,
+    ScasRoll,
+    ScasYaw,
+    Governor,
+}
+
+impl Failure {
+    fn bit(self) -> u64 {
+        match self {
+            Self::EngineLeft => failures::ENGINE_LEFT,
+            Self::EngineRight => failures::ENGINE_RIGHT,
+            Self::ScasPitch => failures::SCAS_PITCH,
+            Self::ScasRoll => failures::SCAS_ROLL,
+            Self::ScasYaw => failures::SCAS_YAW,
+            Self::Governor => failures::GOVERNOR,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wind {
+    from_deg: f64,
+    kt: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Event {
+    at_s: f64,
+    #[serde(default)]
+    over_s: f64,
+    #[serde(default)]
+    axis: BTreeMap<String, f64>,
+    #[serde(default)]
+    press: Vec<ButtonControl>,
+    #[serde(default)]
+    hold: Vec<ButtonControl>,
+    #[serde(default)]
+    release: Vec<ButtonControl>,
+    #[serde(default)]
+    fail: Vec<Failure>,
+    #[serde(default)]
+    mend: Vec<Failure>,
+    wind: Option<Wind>,
+    pause: Option<bool>,
+    #[serde(default)]
+    end: bool,
+}
+
+/// An axis on its way.
+struct Motion {
+    control: AxisControl,
+    from_norm: f64,
+    to_norm: f64,
+    start_s: f64,
+    over_s: f64,
+}
+
+/// A script being played.
+pub struct Script {
+    device: VirtualDevice,
+    events: Vec<(Event, Vec<(AxisControl, f64)>)>,
+    next: usize,
+    motions: Vec<Motion>,
+    at: Vec<(AxisControl, f64)>,
+}
+
+impl Script {
+    /// Reads a script.
+    ///
+    /// # Errors
+    /// With file, line and what was expected.
+    pub fn parse(file: &str, text: &str, map: &cockpit::Params) -> Result<Self, ScriptError> {
+        let parsed: File = toml::from_str(text).map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            let line =
+                1 + text.as_bytes().iter().take(start).filter(|&&byte| byte == b'\n').count();
+            ScriptError::Syntax { file: file.into(), line, what: error.message().to_string() }
+        })?;
+        let device = VirtualDevice::of(map).ok_or(ScriptError::NoDevice)?;
+        let mut events = Vec::new();
+        for (i, event) in parsed.event.into_iter().enumerate() {
+            let axes = check(&event).map_err(|what| ScriptError::Event {
+                file: file.into(),
+                number: i + 1,
+                at_s: event.at_s,
+                what,
+            })?;
+            events.push((event, axes));
+        }
+        events.sort_by(|(a, _), (b, _)| a.at_s.total_cmp(&b.at_s));
+        Ok(Self { device, events, next: 0, motions: Vec::new(), at: Vec::new() })
+    }
+
+    fn begin(&mut self, i: usize, reach: &mut Reach<'_>) {
+        let (event, axes) = &self.events[i];
+        for &(control, to_norm) in axes {
+            let from_norm = self.at.iter().find(|(at, _)| *at == control).map_or(0.0, |at| at.1);
+            self.motions.retain(|motion| motion.control != control);
+            self.motions.push(Motion {
+                control,
+                from_norm,
+                to_norm,
+                start_s: event.at_s,
+                over_s: event.over_s,
+            });
+        }
+        for &button in event.press.iter().chain(&event.hold) {
+            self.device.press(reach, button, true);
+        }
+        for &button in event.press.iter().chain(&event.release) {
+            self.device.press(reach, button, false);
+        }
+        for failure in &event.fail {
+            reach.world.failures |= failure.bit();
+        }
+        for failure in &event.mend {
+            reach.world.failures &= !failure.bit();
+        }
+        if let Some(Wind { from_deg, kt }) = event.wind {
+            let (from_rad, mps) = (from_deg * PI / 180.0, kt * 1852.0 / 3600.0);
+            reach.world.wind_mps = Vec3::new(-mps * cos(from_rad), -mps * sin(from_rad), 0.0);
+        }
+        if let Some(pause) = event.pause {
+            reach.world.paused = u64::from(pause);
+        }
+        if event.end {
+            *reach.done = true;
+        }
+    }
+}
+
+/// The event's axes by control, or what is wrong with it.
+fn check(event: &Event) -> Result<Vec<(AxisControl, f64)>, String> {
+    if !event.at_s.is_finite() || event.at_s < 0.0 {
+        return Err(format!("at_s: expected 0 s or later, got {}", event.at_s));
+    }
+    if !event.over_s.is_finite() || event.over_s < 0.0 {
+        return Err(format!("over_s: expected 0 s or longer, got {}", event.over_s));
+    }
+    if let Some(wind) = event.wind
+        && !(wind.from_deg.is_finite() && (0.0..=200.0).contains(&wind.kt))
+    {
+        return Err(format!("wind: expected 0 to 200 kt, got {} kt", wind.kt));
+    }
+    event
+        .axis
+        .iter()
+        .map(|(name, &to_norm)| {
+            let (control, low) = match name.as_str() {
+                "stick_aft" => (AxisControl::StickAft, -1.0),
+                "stick_right" => (AxisControl::StickRight, -1.0),
+                "collective" => (AxisControl::Collective, 0.0),
+                "pedal_right" => (AxisControl::PedalRight, -1.0),
+                "brake_left" => (AxisControl::BrakeLeft, 0.0),
+                "brake_right" => (AxisControl::BrakeRight, 0.0),
+                _ => {
+                    return Err(format!(
+                        "axis.{name}: expected stick_aft, stick_right, collective, pedal_right, \
+                         brake_left or brake_right"
+                    ));
+                }
+            };
+            if (low..=1.0).contains(&to_norm) {
+                Ok((control, to_norm))
+            } else {
+                Err(format!("axis.{name}: expected {low} to 1, got {to_norm}"))
+            }
+        })
+        .collect()
+}
+
+impl Hands for Script {
+    fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
+        let time_s = reach.tick as f64 * STEP_S;
+        while self.events.get(self.next).is_some_and(|(event, _)| event.at_s <= time_s) {
+            self.begin(self.next, reach);
+            self.next += 1;
+        }
+        for motion in &self.motions {
+            let t = if motion.over_s > 0.0 {
+                engine::math::clamp((time_s - motion.start_s) / motion.over_s, 0.0, 1.0)
+            } else {
+                1.0
+            };
+            let at_norm = motion.from_norm + t * (motion.to_norm - motion.from_norm);
+            match self.at.iter_mut().find(|(control, _)| *control == motion.control) {
+                Some((_, at)) => *at = at_norm,
+                None => self.at.push((motion.control, at_norm)),
+            }
+            self.device.set(reach, motion.control, at_norm);
+        }
+        self.motions.retain(|motion| time_s < motion.start_s + motion.over_s);
+    }
+}

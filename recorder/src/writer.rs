@@ -1,0 +1,246 @@
+//! The writer thread: takes what the loop hands over, and writes it.
+//!
+//! The loop never waits for it. What does not fit into the ring any more, after some twenty seconds
+//! of stalled disk, goes to a list that grows: slower, but nothing is dropped.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use engine::frames::Attitude;
+use engine::inputs::DeviceEvent;
+use engine::{Outputs, State};
+use logs::records::{Happening, InputsRecord, TimingRecord};
+use logs::view::Level;
+use logs::{Closed, FlightWriter, LogError};
+use rtrb::{Consumer, Producer, PushError, RingBuffer};
+
+use crate::narrator::Narrator;
+
+/// Items the ring holds: three a tick, twenty seconds and some.
+const RING_ITEMS: usize = 16_384;
+/// Outputs the ring for viewers holds.
+const VIEW_ITEMS: usize = 256;
+/// Ticks between two outputs handed over for viewers.
+const VIEW_TICKS: u64 = 5;
+/// At most this much of a flight is lost when the program is killed, with room for a slow disk.
+const FLUSH: Duration = Duration::from_millis(100);
+/// How often the thread looks for work.
+const NAP: Duration = Duration::from_millis(4);
+
+/// What the loop hands over, in order.
+#[derive(Clone, Copy)]
+// The state is by far the largest and by far the most frequent.
+#[allow(clippy::large_enum_variant)]
+pub enum Item {
+    /// A device event.
+    Event(DeviceEvent),
+    /// The world, before the step.
+    Inputs(InputsRecord),
+    /// The state after the step.
+    State(State),
+    /// How the tick kept time.
+    Timing(TimingRecord),
+    /// The phase of the flight changed.
+    Phase(u64, u64, &'static str),
+    /// The flight ends: tick and reason.
+    Landed(u64, u64),
+}
+
+/// The loop's end of the hand-over.
+pub struct Recording {
+    ring: Producer<Item>,
+    overflow: VecDeque<Item>,
+    view: Producer<(Outputs, Attitude)>,
+    thread: Option<JoinHandle<Result<Closed, LogError>>>,
+    failed: Arc<AtomicBool>,
+    done: Arc<AtomicBool>,
+    /// Most items that ever waited.
+    pub backlog_max: usize,
+}
+
+impl Recording {
+    /// Starts the thread.
+    pub fn start(writer: FlightWriter, initial: &State) -> Self {
+        let (ring, items) = RingBuffer::new(RING_ITEMS);
+        let (view, views) = RingBuffer::new(VIEW_ITEMS);
+        let failed = Arc::new(AtomicBool::new(false));
+        let done = Arc::new(AtomicBool::new(false));
+        let scribe = Scribe {
+            writer: Some(writer),
+            items,
+            views,
+            narrator: Narrator::new(initial),
+            failed: Arc::clone(&failed),
+            done: Arc::clone(&done),
+            error: None,
+        };
+        let thread = thread::spawn(move || scribe.run());
+        Self {
+            ring,
+            overflow: VecDeque::new(),
+            view,
+            thread: Some(thread),
+            failed,
+            done,
+            backlog_max: 0,
+        }
+    }
+
+    /// Hands an item over. Never waits, never drops.
+    pub fn put(&mut self, item: Item) {
+        while let Some(waiting) = self.overflow.pop_front() {
+            if let Err(PushError::Full(waiting)) = self.ring.push(waiting) {
+                self.overflow.push_front(waiting);
+                break;
+            }
+        }
+        if self.overflow.is_empty() {
+            if let Err(PushError::Full(item)) = self.ring.push(item) {
+                self.overflow.push_back(item);
+            }
+        } else {
+            self.overflow.push_back(item);
+        }
+        let waiting = RING_ITEMS - self.ring.slots() + self.overflow.len();
+        self.backlog_max = self.backlog_max.max(waiting);
+    }
+
+    /// Hands outputs over for viewers; these may be dropped.
+    pub fn show(&mut self, outputs: &Outputs, attitude: Attitude) {
+        if outputs.tick.is_multiple_of(VIEW_TICKS) {
+            let _ = self.view.push((*outputs, attitude));
+        }
+    }
+
+    /// Waits until the writer has caught up to half a ring; for flights that outrun time.
+    pub fn wait_for_room(&self) {
+        while self.ring.slots() < RING_ITEMS / 2 || self.view.slots() == 0 {
+            if self.has_failed() {
+                return;
+            }
+            thread::sleep(Duration::from_micros(100));
+        }
+    }
+
+    /// Whether the log could not be written any further.
+    pub fn has_failed(&self) -> bool {
+        self.failed.load(Ordering::Relaxed)
+    }
+
+    /// Ends the log.
+    ///
+    /// # Errors
+    /// What stopped the writer.
+    pub fn finish(mut self) -> Result<Closed, LogError> {
+        while let Some(waiting) = self.overflow.pop_front() {
+            let mut item = waiting;
+            while let Err(PushError::Full(back)) = self.ring.push(item) {
+                item = back;
+                thread::sleep(NAP);
+            }
+        }
+        self.done.store(true, Ordering::Release);
+        let thread = self.thread.take().ok_or_else(writer_died)?;
+        thread.join().map_err(|_| writer_died())?
+    }
+}
+
+fn writer_died() -> LogError {
+    LogError::Io(std::io::Error::other("the writer thread died"))
+}
+
+/// The thread's end.
+struct Scribe {
+    writer: Option<FlightWriter>,
+    items: Consumer<Item>,
+    views: Consumer<(Outputs, Attitude)>,
+    narrator: Narrator,
+    failed: Arc<AtomicBool>,
+    done: Arc<AtomicBool>,
+    error: Option<LogError>,
+}
+
+impl Scribe {
+    fn run(mut self) -> Result<Closed, LogError> {
+        let mut flushed = Instant::now();
+        loop {
+            // Looked at before draining: nothing is put after it is set.
+            let last_round = self.done.load(Ordering::Acquire);
+            self.drain();
+            if flushed.elapsed() >= FLUSH {
+                let written = self.writer.as_mut().map_or(Ok(()), FlightWriter::flush);
+                self.keep(written);
+                flushed = Instant::now();
+            }
+            if last_round {
+                break;
+            }
+            thread::sleep(NAP);
+        }
+        match (self.writer, self.error) {
+            (Some(writer), None) => writer.finish(),
+            (_, Some(error)) => Err(error),
+            (None, None) => Err(writer_died()),
+        }
+    }
+
+    fn drain(&mut self) {
+        while let Ok(item) = self.items.pop() {
+            let written = self.write(&item);
+            self.keep(written);
+        }
+        while let Ok((outputs, attitude)) = self.views.pop() {
+            let written = self.show(&outputs, attitude);
+            self.keep(written);
+        }
+    }
+
+    fn write(&mut self, item: &Item) -> Result<(), LogError> {
+        let Some(writer) = self.writer.as_mut() else { return Ok(()) };
+        match item {
+            Item::Event(event) => {
+                writer.event(event)?;
+                self.narrator.event(writer, event)
+            }
+            Item::Inputs(inputs) => {
+                writer.inputs(inputs)?;
+                self.narrator.inputs(writer, inputs)
+            }
+            Item::State(state) => {
+                writer.state(state)?;
+                self.narrator.state(writer, state)
+            }
+            Item::Timing(timing) => writer.timing(timing),
+            Item::Phase(tick, number, name) => {
+                writer.happened(*tick, Happening::Phase, *number, Level::Info, name)
+            }
+            Item::Landed(tick, reason) => {
+                let words = match reason {
+                    0 => "end of the flight",
+                    1 => "ended by the crew",
+                    _ => "ended by a signal",
+                };
+                writer.happened(*tick, Happening::Landed, *reason, Level::Info, words)
+            }
+        }
+    }
+
+    fn show(&mut self, outputs: &Outputs, attitude: Attitude) -> Result<(), LogError> {
+        let Some(writer) = self.writer.as_mut() else { return Ok(()) };
+        writer.view(outputs, attitude)?;
+        self.narrator.outputs(writer, outputs)
+    }
+
+    /// After an error the flight goes on; what comes is taken and let go.
+    fn keep(&mut self, written: Result<(), LogError>) {
+        if let Err(error) = written {
+            self.failed.store(true, Ordering::Relaxed);
+            self.error.get_or_insert(error);
+            // Dropped without an index: what was flushed stays readable.
+            self.writer = None;
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Reflying a log: the recorded inputs through the engine, tick by tick.
+
+use std::path::Path;
+
+use engine::{Aircraft, Inputs, Outputs, State, step};
+use logs::{Ending, FlightReader, LogError, Tick};
+
+/// Why a log cannot be reflown.
+#[derive(Debug, thiserror::Error)]
+pub enum ReplayError {
+    /// The log itself.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// The files the flight was flown with.
+    #[error("the log's {0}")]
+    Setup(#[from] aircraft::ConfigError),
+}
+
+/// A log being reflown.
+pub struct Reflight {
+    /// The log.
+    pub reader: FlightReader,
+    /// The aircraft of the log.
+    pub aircraft: Aircraft,
+    /// The state after the last tick.
+    pub state: State,
+}
+
+/// One tick, recorded and reflown.
+pub struct Reflown {
+    /// As recorded.
+    pub recorded: Tick,
+    /// What can be observed after it.
+    pub outputs: Outputs,
+}
+
+impl Reflight {
+    /// Opens a log.
+    ///
+    /// # Errors
+    /// When it is not a flight log, or of another version, or its files cannot be read.
+    pub fn open(path: &Path) -> Result<Self, ReplayError> {
+        let reader = FlightReader::open(path)?;
+        let setup = &reader.setup;
+        let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
+        aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+        // The flight does not need it, but a log whose scenario cannot be read is not whole.
+        aircraft::start("scenario.toml", &setup.scenario_toml)?;
+        let state = reader.initial;
+        Ok(Self { reader, aircraft, state })
+    }
+
+    /// Flies the next tick; `None` at the end of the log.
+    ///
+    /// # Errors
+    /// When the log's messages do not make a flight.
+    pub fn next_tick(&mut self) -> Result<Option<Reflown>, ReplayError> {
+        let Some(recorded) = self.reader.next_tick()? else { return Ok(None) };
+        let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
+        let (state, outputs) = step(&self.aircraft, &self.state, &inputs);
+        self.state = state;
+        Ok(Some(Reflown { recorded, outputs }))
+    }
+
+    /// How the log ends, once it has been flown.
+    pub fn ending(&self) -> Ending {
+        self.reader.ending().cloned().unwrap_or(Ending::Truncated)
+    }
+}

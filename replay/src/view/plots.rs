@@ -1,0 +1,242 @@
+//! What is plotted, and which modes are shown: one line each.
+
+use engine::Outputs;
+use engine::outputs::validity;
+use engine::pair::Pair;
+
+/// One line of a plot.
+pub struct Plot {
+    /// Entity; its second part is the plot, with the unit.
+    pub path: &'static str,
+    /// In the legend.
+    pub name: &'static str,
+    /// RGBA.
+    pub colour: u32,
+    /// Its value.
+    pub of: fn(&Outputs) -> f64,
+}
+
+/// One lane of modes.
+pub struct Mode {
+    /// Entity.
+    pub path: &'static str,
+    /// What it can be, and the colour of each.
+    pub values: &'static [(&'static str, u32)],
+    /// What it is.
+    pub of: fn(&Outputs) -> &'static str,
+}
+
+impl Plot {
+    /// Left is drawn broad, below right: where both are equal, both are seen.
+    pub fn width(&self) -> f32 {
+        if self.colour == LEFT { 3.5 } else { 1.5 }
+    }
+}
+
+const KNOTS_PER_MPS: f64 = 3600.0 / 1852.0;
+const FT_PER_MIN_PER_MPS: f64 = 60.0 / 0.3048;
+const RPM_PER_RADPS: f64 = 60.0 / engine::math::TAU;
+
+const LEFT: u32 = super::SIDES.left;
+const RIGHT: u32 = super::SIDES.right;
+const BLUE: u32 = 0x5B_A8_F5_FF;
+const ORANGE: u32 = 0xF5_A0_3C_FF;
+const VIOLET: u32 = 0xB6_8C_F0_FF;
+const WHITE: u32 = 0xE6_E6_E6_FF;
+const GREY: u32 = 0x8C_8C_8C_FF;
+
+const fn plot(
+    path: &'static str,
+    name: &'static str,
+    colour: u32,
+    of: fn(&Outputs) -> f64,
+) -> Plot {
+    Plot { path, name, colour, of }
+}
+
+/// Everything plotted.
+#[rustfmt::skip]
+pub const PLOTS: &[Plot] = &[
+    plot("plots/height_m/above_ground", "above ground", ORANGE, |o| o.height_above_ground_m),
+    plot("plots/height_m/above_sea", "above sea", BLUE, |o| o.place.height_m),
+    plot("plots/airspeed_kt/calibrated", "calibrated", BLUE, |o| o.calibrated_airspeed_mps * KNOTS_PER_MPS),
+    plot("plots/airspeed_kt/true", "true", GREY, |o| o.airspeed_mps * KNOTS_PER_MPS),
+    plot("plots/climb_ft_per_min", "climb", ORANGE, |o| -o.velocity_mps.z * FT_PER_MIN_PER_MPS),
+    plot("plots/attitude_deg/roll", "roll, right +", BLUE, |o| o.euler.roll_rad.to_degrees()),
+    plot("plots/attitude_deg/pitch", "pitch, up +", ORANGE, |o| o.euler.pitch_rad.to_degrees()),
+    plot("plots/attitude_deg/heading", "heading", VIOLET, |o| o.euler.heading_rad.to_degrees().rem_euclid(360.0)),
+    plot("plots/rates_degps/p", "p roll", BLUE, |o| o.angular_rate_radps.x.to_degrees()),
+    plot("plots/rates_degps/q", "q pitch", ORANGE, |o| o.angular_rate_radps.y.to_degrees()),
+    plot("plots/rates_degps/r", "r yaw", VIOLET, |o| o.angular_rate_radps.z.to_degrees()),
+    plot("plots/air_deg/alpha", "angle of attack", ORANGE, |o| o.alpha_rad.to_degrees()),
+    plot("plots/air_deg/beta", "sideslip", VIOLET, |o| o.beta_rad.to_degrees()),
+    plot("plots/load_factor", "load factor", ORANGE, |o| o.load_factor),
+    plot("plots/pilot/stick_aft", "stick aft", ORANGE, |o| o.cockpit.stick_aft_norm),
+    plot("plots/pilot/stick_right", "stick right", BLUE, |o| o.cockpit.stick_right_norm),
+    plot("plots/pilot/collective", "collective", WHITE, |o| o.cockpit.collective_norm),
+    plot("plots/pilot/pedal_right", "right pedal", VIOLET, |o| o.cockpit.pedal_right_norm),
+    plot("plots/nacelle_deg/left", "left, 90 = helicopter", LEFT, |o| incidence_deg(o).left),
+    plot("plots/nacelle_deg/right", "right", RIGHT, |o| incidence_deg(o).right),
+    plot("plots/surfaces_deg/flap", "flap", WHITE, |o| o.actuators.flap_rad.to_degrees()),
+    plot("plots/surfaces_deg/flaperon_left", "left flaperon", LEFT, |o| o.actuators.flaperon_rad.left.to_degrees()),
+    plot("plots/surfaces_deg/flaperon_right", "right flaperon", RIGHT, |o| o.actuators.flaperon_rad.right.to_degrees()),
+    plot("plots/surfaces_deg/elevator", "elevator", ORANGE, |o| o.actuators.elevator_rad.to_degrees()),
+    plot("plots/surfaces_deg/rudder", "rudder right", VIOLET, |o| o.actuators.rudder_right_rad.to_degrees()),
+    plot("plots/blades_deg/collective_left", "left collective", LEFT, |o| o.actuators.collective_rad.left.to_degrees()),
+    plot("plots/blades_deg/collective_right", "right collective", RIGHT, |o| o.actuators.collective_rad.right.to_degrees()),
+    plot("plots/cyclic_deg/left", "left, forward +", LEFT, |o| o.actuators.cyclic_forward_rad.left.to_degrees()),
+    plot("plots/cyclic_deg/right", "right", RIGHT, |o| o.actuators.cyclic_forward_rad.right.to_degrees()),
+    plot("plots/rotor_rpm", "rotors", WHITE, |o| o.rotor_speed_radps * RPM_PER_RADPS),
+    plot("plots/power_kW/left", "left", LEFT, |o| 1e-3 * o.engines.power_w.left),
+    plot("plots/power_kW/right", "right", RIGHT, |o| 1e-3 * o.engines.power_w.right),
+    plot("plots/power_kW/available", "available", GREY, |o| 1e-3 * o.engines.available_w),
+    plot("plots/thrust_kN/left", "left", LEFT, |o| 1e-3 * o.rotors.left.thrust_n),
+    plot("plots/thrust_kN/right", "right", RIGHT, |o| 1e-3 * o.rotors.right.thrust_n),
+    plot("plots/torque_kNm/left", "left", LEFT, |o| 1e-3 * o.rotors.left.torque_n_m),
+    plot("plots/torque_kNm/right", "right", RIGHT, |o| 1e-3 * o.rotors.right.torque_n_m),
+    plot("plots/induced_mps/left", "left", LEFT, |o| o.rotors.left.induced_mps),
+    plot("plots/induced_mps/right", "right", RIGHT, |o| o.rotors.right.induced_mps),
+    plot("plots/gear/push_kN/nose", "nose", BLUE, |o| 1e-3 * o.landing_gear.nose.push_n),
+    plot("plots/gear/push_kN/left", "left", LEFT, |o| 1e-3 * o.landing_gear.main.left.push_n),
+    plot("plots/gear/push_kN/right", "right", RIGHT, |o| 1e-3 * o.landing_gear.main.right.push_n),
+    plot("plots/gear/extension", "gear, 1 = down", WHITE, |o| o.actuators.gear_extension_norm),
+    plot("plots/fuel_kg", "fuel", WHITE, |o| o.fuel_kg),
+];
+
+const QUIET: u32 = 0x4A_5A_6A_FF;
+const ACTIVE: u32 = 0x2F_7F_D0_FF;
+const CAUTION: u32 = 0xE0_9A_20_FF;
+const ALARM: u32 = 0xD0_40_38_FF;
+
+/// Every mode shown.
+pub const MODES: &[Mode] = &[
+    Mode {
+        path: "modes/nacelles",
+        values: &[("helicopter", ACTIVE), ("converting", CAUTION), ("aeroplane", 0x30_90_60_FF)],
+        of: nacelles,
+    },
+    Mode {
+        path: "modes/weight_on_wheels",
+        values: &[("on the ground", 0x8A_6A_48_FF), ("airborne", ACTIVE)],
+        of: ground,
+    },
+    Mode {
+        path: "modes/gear",
+        values: &[("up", QUIET), ("moving", CAUTION), ("down", 0x30_90_60_FF)],
+        of: gear,
+    },
+    Mode {
+        path: "modes/flaps",
+        values: &[("0", QUIET), ("20", 0x2A_5C_90_FF), ("40", ACTIVE), ("75", 0x58_A8_F0_FF)],
+        of: flaps,
+    },
+    Mode { path: "modes/scas", values: &[("off", ALARM), ("on", QUIET)], of: scas },
+    Mode {
+        path: "modes/rotor_speed",
+        values: &[("helicopter", ACTIVE), ("aeroplane 517", QUIET), ("aeroplane 458", QUIET)],
+        of: rotor_speed,
+    },
+    Mode {
+        path: "modes/model",
+        values: &[
+            ("within its data", QUIET),
+            ("rotor stall", CAUTION),
+            ("vortex ring", ALARM),
+            ("beyond its speeds", CAUTION),
+            ("beyond its heights", CAUTION),
+            ("gear bottomed", ALARM),
+            ("frozen", ALARM),
+        ],
+        of: model,
+    },
+];
+
+/// As cockpits count: 90° as a helicopter.
+fn incidence_deg(outputs: &Outputs) -> Pair<f64> {
+    outputs.actuators.mast_tilt_rad.map(|tilt_rad| 90.0 - tilt_rad.to_degrees())
+}
+
+fn nacelles(outputs: &Outputs) -> &'static str {
+    match incidence_deg(outputs).mean() {
+        incidence_deg if incidence_deg > 85.0 => "helicopter",
+        incidence_deg if incidence_deg > 1.0 => "converting",
+        _ => "aeroplane",
+    }
+}
+
+fn ground(outputs: &Outputs) -> &'static str {
+    if outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0 {
+        "on the ground"
+    } else {
+        "airborne"
+    }
+}
+
+fn gear(outputs: &Outputs) -> &'static str {
+    match outputs.actuators.gear_extension_norm {
+        extension if extension >= 1.0 => "down",
+        extension if extension <= 0.0 => "up",
+        _ => "moving",
+    }
+}
+
+fn flaps(outputs: &Outputs) -> &'static str {
+    match outputs.cockpit.flap_detent {
+        0 => "0",
+        1 => "20",
+        2 => "40",
+        _ => "75",
+    }
+}
+
+fn scas(outputs: &Outputs) -> &'static str {
+    if outputs.cockpit.scas_on == 0 { "off" } else { "on" }
+}
+
+fn rotor_speed(outputs: &Outputs) -> &'static str {
+    match outputs.cockpit.rpm_select {
+        0 => "helicopter",
+        1 => "aeroplane 517",
+        _ => "aeroplane 458",
+    }
+}
+
+/// The gravest of the doubts.
+fn model(outputs: &Outputs) -> &'static str {
+    let gravest_first = [
+        (validity::FROZEN, "frozen"),
+        (validity::GEAR_BOTTOMED, "gear bottomed"),
+        (validity::VORTEX_RING, "vortex ring"),
+        (validity::ROTOR_STALL, "rotor stall"),
+        (validity::SPEED, "beyond its speeds"),
+        (validity::HEIGHT, "beyond its heights"),
+    ];
+    gravest_first
+        .into_iter()
+        .find(|&(bit, _)| outputs.validity & bit != 0)
+        .map_or("within its data", |(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn no_two_lines_share_a_path() {
+        let paths = PLOTS.iter().map(|plot| plot.path).chain(MODES.iter().map(|mode| mode.path));
+        assert_eq!(paths.clone().collect::<BTreeSet<_>>().len(), paths.count());
+    }
+
+    #[test]
+    fn every_mode_has_a_colour() {
+        let mut outputs = Outputs::default();
+        for bit in 0..6 {
+            outputs.validity = 1 << bit;
+            for mode in MODES {
+                let value = (mode.of)(&outputs);
+                assert!(mode.values.iter().any(|(known, _)| *known == value), "{value}");
+            }
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! `tiltrotor fly`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::thread;
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+use engine::STEP_S;
+use engine::cockpit;
+use flightgear::Link;
+use indicatif::{ProgressBar, ProgressStyle};
+use logs::Setup;
+use recorder::pilots::{PILOTS, Pilot};
+use recorder::script::Script;
+use recorder::{Flight, Hands, Landing, Progress, fly};
+
+use crate::{identity, report};
+
+/// What flies, from where, and where it is recorded.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Fly with the sticks that are plugged in
+    #[arg(long)]
+    stick: bool,
+    /// Let a pilot model fly: hover, demo
+    #[arg(long, value_name = "NAME")]
+    pilot: Option<String>,
+    /// Play the timed events of a file
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+    /// Cockpit map for --stick (a built-in one without)
+    #[arg(long, value_name = "FILE", requires = "stick")]
+    map: Option<PathBuf>,
+    #[command(flatten)]
+    pub common: Common,
+    /// End the flight after this long, s
+    #[arg(long, value_name = "SECONDS")]
+    duration: Option<f64>,
+}
+
+/// What `fly` and `demo` have in common.
+#[derive(clap::Args)]
+pub struct Common {
+    /// As fast as it goes instead of in real time
+    #[arg(long)]
+    pub fast: bool,
+    /// Aircraft file (the XV-15 without)
+    #[arg(long, value_name = "FILE")]
+    pub aircraft: Option<PathBuf>,
+    /// Scenario: where and how the flight begins (Hilo, runway 26, calm air without)
+    #[arg(long, value_name = "FILE")]
+    pub scenario: Option<PathBuf>,
+    /// The log to be written
+    #[arg(long, value_name = "FILE", default_value = "flight.mcap")]
+    pub out: PathBuf,
+    /// Overwrite an existing log
+    #[arg(long)]
+    pub force: bool,
+    /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
+    #[arg(long, value_name = "HOST:PORT", default_value = flightgear::DEFAULT_DESTINATION)]
+    pub flightgear: String,
+    /// Send nothing to FlightGear
+    #[arg(long, conflicts_with = "flightgear")]
+    pub no_flightgear: bool,
+}
+
+/// Flies, and sums up.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let mut plan = Plan::new(&args.common)?;
+    if let Some(seconds) = args.duration {
+        if !(seconds.is_finite() && seconds > 0.0) {
+            bail!("--duration {seconds}: expected more than 0 s");
+        }
+        plan.flight.ticks_max = Some((seconds / STEP_S).round() as u64);
+    }
+    let virtual_hands = args.pilot.is_some() || args.script.is_some();
+    if !args.stick && !virtual_hands {
+        bail!("nobody flies: give --stick, --pilot NAME ({}) or --script FILE", pilot_names());
+    }
+    let mut map = cockpit::Params::default();
+    if args.stick {
+        plan.plug_in(&mut map, args.map.as_deref())?;
+    }
+    if virtual_hands {
+        let pilot = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP)?;
+        map.device.extend(pilot.device);
+    }
+    if let Some(name) = &args.pilot {
+        plan.flight.hands.push(pilot(name, &map)?);
+    }
+    if let Some(path) = &args.script {
+        let text = read(path)?;
+        plan.flight.hands.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
+    }
+    plan.set_map(map)?;
+    if args.duration.is_none() && args.common.fast && args.pilot.as_deref() == Some("hover") {
+        bail!("the hover pilot never lands: give --duration SECONDS with --fast");
+    }
+    let real_time = plan.flight.real_time;
+    let landing = plan.fly()?;
+    report::landing(&landing, real_time, &args.common.out.display().to_string());
+    Ok(if landing.log.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(report::LOG_CUT_SHORT) })
+}
+
+/// A flight being prepared.
+pub struct Plan {
+    /// What will be flown.
+    pub flight: Flight,
+}
+
+impl Plan {
+    /// Aircraft, scenario, log and link; hands and cockpit map are still to come.
+    pub fn new(common: &Common) -> Result<Self> {
+        let (aircraft_name, aircraft_toml) =
+            text_or(common.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;
+        let aircraft = aircraft::aircraft(&aircraft_name, &aircraft_toml)?;
+        let (scenario_name, scenario_toml) =
+            text_or(common.scenario.as_deref(), "default.toml", aircraft::DEFAULT_SCENARIO)?;
+        let start = aircraft::start(&scenario_name, &scenario_toml)?;
+        let link = if common.no_flightgear { None } else { Some(Link::new(&common.flightgear)?) };
+        if common.out.exists() && !common.force {
+            bail!(
+                "{} exists; name another file with --out, or overwrite it with --force",
+                common.out.display()
+            );
+        }
+        Ok(Self {
+            flight: Flight {
+                aircraft,
+                start,
+                setup: Setup { aircraft_toml, cockpit_toml: String::new(), scenario_toml },
+                identity: identity::identity(),
+                robot_description: include_str!("../aircraft/xv15.urdf").to_string(),
+                hands: Vec::new(),
+                #[cfg(feature = "sticks")]
+                sticks: None,
+                out: common.out.clone(),
+                force: common.force,
+                real_time: !common.fast,
+                ticks_max: None,
+                link,
+            },
+        })
+    }
+
+    /// The cockpit map as flown.
+    pub fn set_map(&mut self, map: cockpit::Params) -> Result<()> {
+        self.flight.setup.cockpit_toml = toml::to_string(&map)?;
+        self.flight.aircraft.cockpit = map;
+        Ok(())
+    }
+
+    #[cfg(feature = "sticks")]
+    fn plug_in(&mut self, map: &mut cockpit::Params, path: Option<&Path>) -> Result<()> {
+        let (name, text) = text_or(path, "stick.toml", aircraft::STICK_MAP)?;
+        *map = aircraft::cockpit(&name, &text)?;
+        let sticks = recorder::sticks::Sticks::start(map)?;
+        for (number, name) in &sticks.found {
+            eprintln!("device {number}: {name}");
+        }
+        self.flight.sticks = Some(sticks);
+        Ok(())
+    }
+
+    #[cfg(not(feature = "sticks"))]
+    fn plug_in(&mut self, _: &mut cockpit::Params, _: Option<&Path>) -> Result<()> {
+        bail!("this program was built without `sticks`: build it with the default features")
+    }
+
+    /// Flies, with a line of progress on a terminal.
+    pub fn fly(self) -> Result<Landing> {
+        let progress = Progress::default();
+        progress.stop_on_signals()?;
+        let bar = ProgressBar::new_spinner();
+        bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
+        let landing = thread::scope(|scope| {
+            let flying = scope.spawn(|| fly(self.flight, &progress));
+            let mut told_of_log = false;
+            while !flying.is_finished() {
+                thread::sleep(Duration::from_millis(100));
+                let now = progress.now();
+                bar.set_message(format!(
+                    "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  overruns {}  \
+                     phase {}",
+                    now.tick as f64 * STEP_S,
+                    now.height_m,
+                    report::knots(now.airspeed_mps),
+                    report::compass_deg(now.heading_rad),
+                    now.overruns,
+                    now.phase
+                ));
+                bar.tick();
+                if now.log_failed && !told_of_log {
+                    told_of_log = true;
+                    bar.suspend(|| {
+                        eprintln!("WARNING: the log cannot be written any further; flying on");
+                    });
+                }
+            }
+            flying.join()
+        });
+        bar.finish_and_clear();
+        let landing = landing.map_err(|_| anyhow::anyhow!("the flight died of a fault of ours"))?;
+        Ok(landing?)
+    }
+}
+
+/// The pilot model of that name.
+pub fn pilot(name: &str, map: &cockpit::Params) -> Result<Box<dyn Hands>> {
+    match Pilot::named(name, map) {
+        Some(pilot) => Ok(Box::new(pilot)),
+        None => bail!("no pilot model is called `{name}`; there are {}", pilot_names()),
+    }
+}
+
+fn pilot_names() -> String {
+    let names: Vec<_> = PILOTS.iter().map(|(name, what)| format!("{name}: {what}")).collect();
+    names.join("; ")
+}
+
+fn text_or(path: Option<&Path>, name: &str, built_in: &str) -> Result<(String, String)> {
+    match path {
+        Some(path) => Ok((name_of(path), read(path)?)),
+        None => Ok((name.to_string(), built_in.to_string())),
+    }
+}
+
+fn name_of(path: &Path) -> String {
+    path.display().to_string()
+}
+
+fn read(path: &Path) -> Result<String> {
+    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}

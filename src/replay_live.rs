@@ -1,0 +1,50 @@
+//! `tiltrotor replay`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Result, bail};
+use engine::STEP_S;
+use flightgear::Link;
+use recorder::Pace;
+use replay::Reflight;
+
+/// What to refly, and where to show it.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The log
+    log: PathBuf,
+    /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
+    #[arg(long, value_name = "HOST:PORT", default_value = flightgear::DEFAULT_DESTINATION)]
+    flightgear: String,
+    /// Times real time
+    #[arg(long, default_value_t = 1.0)]
+    speed: f64,
+}
+
+/// Reflies the log and sends every tick's picture.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
+        bail!("--speed {}: expected 0.01 to 1000", args.speed);
+    }
+    let mut flight = Reflight::open(&args.log)?;
+    let mut link = Link::new(&args.flightgear)?;
+    let pace = Pace::at_speed(args.speed);
+    let mut ticks = 0;
+    while let Some(reflown) = flight.next_tick()? {
+        pace.wait(ticks);
+        link.send(&reflown.outputs);
+        flight.reader.timings.clear();
+        ticks += 1;
+    }
+    println!(
+        "{}: {:.1} s reflown at {} times real time, {} packets sent to {}, {} not",
+        args.log.display(),
+        ticks as f64 * STEP_S,
+        args.speed,
+        link.sent(),
+        link.destination(),
+        link.dropped()
+    );
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,73 @@
+//! What a flight prints when it is over, and the exit statuses.
+
+use engine::STEP_S;
+use engine::math::PI;
+use recorder::Landing;
+use recorder::statistics::Durations;
+
+/// A log that cannot be used, or a command that cannot be carried out.
+pub const UNUSABLE: u8 = 2;
+/// The flight went on, but its log ends early.
+pub const LOG_CUT_SHORT: u8 = 4;
+
+/// Latency beyond which CS-FSTD(A) refuses a simulator.
+const LATENCY_LIMIT_MS: f64 = 150.0;
+
+/// Mean knots of a speed.
+pub fn knots(mps: f64) -> f64 {
+    mps * 3600.0 / 1852.0
+}
+
+/// Heading as a compass shows it, 0..360.
+pub fn compass_deg(heading_rad: f64) -> f64 {
+    (heading_rad * 180.0 / PI).rem_euclid(360.0)
+}
+
+/// Sums up a flight on standard output.
+pub fn landing(landing: &Landing, real_time: bool, out: &str) {
+    let flown = &landing.statistics;
+    println!(
+        "flown      {:.1} s, {} ticks of {:.0} ms, {} device events",
+        flown.ticks as f64 * STEP_S,
+        flown.ticks,
+        STEP_S * 1e3,
+        landing.events
+    );
+    if real_time {
+        println!("overruns   {} ticks ended after the next one was due", flown.overruns);
+        line("late by", &flown.late, "from when a tick was due until it ran");
+    }
+    line("step", &flown.step, "the flight model");
+    line("hand-over", &flown.record, "to the log's writer");
+    line("to picture", &flown.sent, "from sampling the inputs to the packet for FlightGear");
+    if flown.latency.count() > 0 {
+        line("latency", &flown.latency, "from the kernel's time of an input to the packet");
+        println!(
+            "           (limit of CS-FSTD(A): {LATENCY_LIMIT_MS} ms; the paper: 2.5 to 5 ms, peaks of \
+             40 ms)"
+        );
+    }
+    println!("FlightGear {} packets sent, {} not", landing.sent, landing.unsent);
+    match &landing.log {
+        Ok(closed) => println!(
+            "log        {out}, {:.1} MB ({:.0} B a tick), digest {:016x}, nothing dropped",
+            closed.bytes as f64 * 1e-6,
+            closed.bytes as f64 / flown.ticks.max(1) as f64,
+            closed.digest
+        ),
+        Err(error) => println!("log        {out} ends before the flight did: {error}"),
+    }
+    for refused in &landing.refused {
+        println!("note       {refused}");
+    }
+}
+
+fn line(name: &str, durations: &Durations, what: &str) {
+    println!(
+        "{name:<10} p50 {:.3} ms, p99 {:.3}, p99.9 {:.3}, max {:.3} ms: {what}",
+        durations.percentile_ms(50.0),
+        durations.percentile_ms(99.0),
+        durations.percentile_ms(99.9),
+        durations.longest_ms()
+    );
+}

@@ -1,0 +1,85 @@
+//! `tiltrotor view`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Result;
+
+/// What to show.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The log
+    log: PathBuf,
+    /// Save for the viewer instead of opening it
+    #[arg(long, value_name = "FLIGHT.rrd")]
+    save: Option<PathBuf>,
+    /// Overwrite an existing file
+    #[arg(long)]
+    force: bool,
+}
+
+#[cfg(feature = "rerun")]
+mod with_rerun {
+    use std::path::Path;
+    use std::process::Command;
+
+    use anyhow::{Context, bail};
+    use logs::records::Happening;
+    use replay::Reflight;
+    use replay::view::{FlightView, Level};
+
+    use super::{Args, ExitCode, Result};
+
+    /// Reflies the log into a recording, and opens the viewer unless it is to be saved.
+    pub fn run(args: &Args) -> Result<ExitCode> {
+        let saved = args.save.clone().unwrap_or_else(|| args.log.with_extension("rrd"));
+        if saved.exists() && !args.force {
+            bail!("{} exists; overwrite it with --force", saved.display());
+        }
+        let bytes = save(&args.log, &saved)?;
+        println!("{}: {:.1} MB for rerun", saved.display(), bytes as f64 * 1e-6);
+        if args.save.is_none() {
+            Command::new("rerun").arg(&saved).spawn().with_context(|| {
+                format!(
+                    "no `rerun` program to open {} with; `pip install rerun-sdk==0.36.3` brings one",
+                    saved.display()
+                )
+            })?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// Reflies the log into a recording; returns its size.
+    pub fn save(log: &Path, saved: &Path) -> Result<u64> {
+        let mut flight = Reflight::open(log)?;
+        let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
+        let mut view = FlightView::new(saved, &title)?;
+        while let Some(reflown) = flight.next_tick()? {
+            view.push(&reflown.outputs);
+            flight.reader.timings.clear();
+        }
+        for event in &flight.reader.happenings {
+            let level = match Happening::from_u64(event.kind) {
+                Some(Happening::Failures | Happening::DeviceDisconnected) => Level::Warning,
+                Some(Happening::Validity) if event.value != 0 => Level::Warning,
+                _ => Level::Info,
+            };
+            view.event(event.tick, level, &event.to_string());
+        }
+        Ok(view.finish()?)
+    }
+}
+
+#[cfg(feature = "rerun")]
+pub use with_rerun::{run, save};
+
+/// Says what is missing.
+#[cfg(not(feature = "rerun"))]
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let Args { log, save: _, force: _ } = args;
+    anyhow::bail!(
+        "{}: this program was built without `rerun`; build it with the default features, or open the \
+         log itself: `rerun {0}`",
+        log.display()
+    )
+}
