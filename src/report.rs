@@ -7,6 +7,8 @@ use recorder::statistics::Durations;
 
 /// A log that cannot be used, or a command that cannot be carried out.
 pub const UNUSABLE: u8 = 2;
+/// A log that is exact as far as it goes, but was never closed.
+pub const NEVER_CLOSED: u8 = 3;
 /// The flight went on, but its log ends early.
 pub const LOG_CUT_SHORT: u8 = 4;
 

@@ -52,7 +52,7 @@ pub fn verify_one(log: &Path) -> u8 {
                 Outcome::Exact => 0,
                 Outcome::Diverged => 1,
                 Outcome::Damaged => report::UNUSABLE,
-                Outcome::Incomplete => 3,
+                Outcome::Incomplete => report::NEVER_CLOSED,
             }
         }
         Err(error) => {
