@@ -39,12 +39,12 @@ pub fn run(command: &Command) -> Result<ExitCode> {
 
 fn info(log: &Path) -> Result<ExitCode> {
     let mut reader = FlightReader::open(log)?;
-    println!("{}", log.display());
+    say!("{}", log.display());
     for (key, value) in &reader.identity.0 {
-        println!("  {key:<16} {value}");
+        say!("  {key:<16} {value}");
     }
     for (name, text) in reader.setup.files() {
-        println!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
+        say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
     }
     let (mut ticks, mut events, mut digest) = (0, 0, 0);
     let mut statistics = Statistics::new();
@@ -63,19 +63,19 @@ fn info(log: &Path) -> Result<ExitCode> {
             statistics.add(&timing);
         }
     };
-    println!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
-    println!("  {:<16} {events}", "device events");
-    println!("  {:<16} {} late ticks", "overruns", statistics.overruns);
-    println!(
+    say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
+    say!("  {:<16} {events}", "device events");
+    say!("  {:<16} {} late ticks", "overruns", statistics.overruns);
+    say!(
         "  {:<16} p50 {:.3} ms, p99.9 {:.3} ms, max {:.3} ms",
         "to picture",
         statistics.sent.percentile_ms(50.0),
         statistics.sent.percentile_ms(99.9),
         statistics.sent.longest_ms()
     );
-    println!("  {:<16} {digest:016x}", "digest");
+    say!("  {:<16} {digest:016x}", "digest");
     for happening in &reader.happenings {
-        println!("  {:>10.3} s  {happening}", happening.tick as f64 * STEP_S);
+        say!("  {:>10.3} s  {happening}", happening.tick as f64 * STEP_S);
     }
     let ending = match (disorder, reader.ending()) {
         (Some(error), _) => format!("unusable from here: {error}"),
@@ -83,7 +83,7 @@ fn info(log: &Path) -> Result<ExitCode> {
         (None, Some(Ending::Damaged(why))) => format!("damaged from here: {why}"),
         (None, _) => "not closed: killed, or cut".into(),
     };
-    println!("  {:<16} {ending}", "end of the log");
+    say!("  {:<16} {ending}", "end of the log");
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
 }
 
@@ -114,7 +114,7 @@ fn cat(log: &Path, only: Option<&str>) -> Result<ExitCode> {
         Ending::Closed => ExitCode::SUCCESS,
         Ending::Truncated => ExitCode::from(report::NEVER_CLOSED),
         Ending::Damaged(why) => {
-            eprintln!("tiltrotor: {}: {why}", log.display());
+            complain!("tiltrotor: {}: {why}", log.display());
             ExitCode::from(report::UNUSABLE)
         }
     })
