@@ -23,9 +23,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     plan.set_map(map)?;
     say!("Vertical take-off, climb, hover turn, dash to 60 kt, landing: flown by a pilot model");
     say!("whose stick, lever and pedals take the path that hardware takes. Ctrl-C lands.");
-    match (&plan.flight.link, args.common.fast) {
-        (Some(link), false) => say!("Live in FlightGear at {}.", link.destination()),
-        (Some(_), true) | (None, _) => {}
+    if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
+        say!("Live in FlightGear at {}.", link.destination());
     }
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;

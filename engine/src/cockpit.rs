@@ -266,7 +266,7 @@ fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
 fn hold_nacelles(controls: &mut State, aft_norm: f64, pressed: bool) {
     if pressed {
         controls.nacelle_aft_norm = aft_norm;
-    } else if sign(controls.nacelle_aft_norm) == sign(aft_norm) {
+    } else if controls.nacelle_aft_norm * aft_norm > 0.0 {
         controls.nacelle_aft_norm = 0.0;
     }
 }
