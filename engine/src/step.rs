@@ -9,10 +9,10 @@
 //! Cockpit, computer, actuators and tyres are sampled: they move once a tick and hold through it.
 
 use crate::aero::{Motion, fuselage, horizontal_stabilizer, vertical_stabilizers, wing_pylon};
-use crate::frames::{Body, Load, Ned, Rotation, Vec3};
+use crate::frames::{Body, Euler, Load, Ned, Rotation, Vec3};
 use crate::inputs::World;
 use crate::landing_gear::{Struts, Tread};
-use crate::math::{TAU, atan2, max, min, sqrt, square};
+use crate::math::{PI, TAU, atan2, max, min, sqrt, square};
 use crate::outputs::{EulerRate, Loads, Outputs, calibrated_airspeed, place, validity};
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
@@ -51,9 +51,13 @@ fn sense(state: &State, world: &World) -> fcc::Sensed {
     let plant = &state.plant;
     let airspeed_mps = (plant.velocity_mps - world.wind_mps).norm();
     let air = air(plant, world);
+    let euler = plant.attitude.euler();
+    // Exactly upside down neither way round is the shorter: taking one would break the symmetry.
+    let half_turn = euler.roll_rad.abs() >= PI;
+    let euler = Euler { roll_rad: if half_turn { 0.0 } else { euler.roll_rad }, ..euler };
     fcc::Sensed {
         angular_rate_radps: plant.angular_rate_radps,
-        euler: plant.attitude.euler(),
+        euler,
         airspeed_mps,
         dynamic_pressure_pa: 0.5 * air.density_kg_per_m3 * square(airspeed_mps),
         rotor_speed_radps: plant.rotor_speed_radps,
