@@ -26,14 +26,16 @@ use crate::{
 pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
     let pilot = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
     let held = State { tick: state.tick + 1, cockpit: pilot, ..*state };
-    if inputs.world.paused != 0 || state.frozen != 0 {
-        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world);
-        return (held, blocks.outputs(&held));
-    }
 
     // Sampled once, held through the tick.
     let sensed = sense(state, &inputs.world);
     let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &pilot, &sensed, &inputs.world);
+    if inputs.world.paused != 0 || state.frozen != 0 {
+        // What the computer asks for stays to be seen; what it remembers does not move. The rates
+        // of the tick before the pause stay too, so that the motion goes on as if there were none.
+        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world);
+        return (held, Outputs { commands, ..blocks.outputs(&held) });
+    }
     let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
     let sampled = State { fcc, actuators, ..held };
 
