@@ -42,6 +42,7 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
     // Integrated across the tick.
     let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world);
     let plant = advance(&sampled.plant, &blocks.rate, &state.rate, &blocks.gear);
+    let plant = above_ground(aircraft, plant, &inputs.world);
     let next = State { plant, rate: blocks.rate, ..sampled }.without_negative_zeros();
     let next = if next.is_finite() { next } else { State { frozen: 1, ..held } };
     let outputs = Outputs { commands, ..blocks.outputs(&next) };
@@ -120,6 +121,17 @@ fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear
         weight_on_wheels: u64::from(gear.legs.main.map(|leg| leg.push_n).sum() > 0.0),
         ..*plant
     }
+}
+
+/// The plant where the hull lets it be.
+fn above_ground(aircraft: &Aircraft, plant: Plant, world: &World) -> Plant {
+    let Plant { position_m, velocity_mps, angular_rate_radps, .. } = plant;
+    let landing_gear::Hulled { position_m, velocity_mps, angular_rate_radps } = landing_gear::hull(
+        &aircraft.landing_gear,
+        landing_gear::Hulled { position_m, velocity_mps, angular_rate_radps },
+        world.ground_height_m,
+    );
+    Plant { position_m, velocity_mps, angular_rate_radps, ..plant }
 }
 
 /// The landing gear's answer: next treads, and each leg.
