@@ -142,7 +142,8 @@ struct Gear {
 
 /// What every block says of one state: the block diagram, once through.
 struct Blocks {
-    height_above_ground_m: f64,
+    ground_height_m: f64,
+    hull_height_m: f64,
     air: environment::Outputs,
     motion: Motion,
     balance: weight_balance::Outputs,
@@ -241,7 +242,8 @@ impl Blocks {
         };
         let gear = Gear { treads, legs };
         Self {
-            height_above_ground_m,
+            ground_height_m: world.ground_height_m,
+            hull_height_m: aircraft.landing_gear.hull_height_m,
             air,
             motion,
             balance,
@@ -268,7 +270,7 @@ impl Blocks {
             tick: next.tick,
             place: place(&plant.origin, plant.position_m),
             position_m: plant.position_m,
-            height_above_ground_m: self.height_above_ground_m,
+            height_above_ground_m: self.height_above_ground_m(next),
             velocity_mps: plant.velocity_mps,
             body_velocity_mps: body_from_ned * plant.velocity_mps,
             euler,
@@ -298,21 +300,31 @@ impl Blocks {
         }
     }
 
+    fn height_above_ground_m(&self, next: &State) -> f64 {
+        -next.plant.position_m.z - self.ground_height_m
+    }
+
     fn validity(&self, next: &State) -> u64 {
         let flag = |bit: u64, set: bool| if set { bit } else { 0 };
-        let up_mps = -next.plant.velocity_mps.z;
+        // Through the air and along the masts, which stand upright where it counts.
+        let sinking_mps = self.motion.airspeed_mps.z;
         let induced_mps = self.rotors.map(|rotor| rotor.induced_mps).mean();
         let upright = next.actuators.mast_tilt_rad.mean() < 0.5;
+        let airborne = next.plant.weight_on_wheels == 0;
         let slow = self.rotors.left.advance_ratio < 0.05 && self.rotors.right.advance_ratio < 0.05;
         let legs = &self.gear.legs;
         let bottomed =
             [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
         flag(validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
-            | flag(validity::VORTEX_RING, upright && slow && up_mps < -0.5 * induced_mps)
+            | flag(
+                validity::VORTEX_RING,
+                airborne && upright && slow && sinking_mps > 0.5 * max(induced_mps, 2.0),
+            )
             | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
             | flag(validity::HEIGHT, next.plant.origin.height_m - next.plant.position_m.z > 12e3)
             | flag(validity::GEAR_BOTTOMED, bottomed)
             | flag(validity::FROZEN, next.frozen != 0)
+            | flag(validity::HULL, self.height_above_ground_m(next) <= self.hull_height_m)
     }
 }
 
