@@ -9,7 +9,9 @@ use crate::state::{Geodetic, Plant, State};
 use crate::{Aircraft, GRAVITY_MPS2, cockpit, fcc, rotors, step};
 
 /// How long the aircraft settles on its wheels before the flight, in ticks.
-const SETTLING_TICKS: u64 = 1500;
+///
+/// Half a minute: the governor needs most of it to find the collective that idle power holds.
+const SETTLING_TICKS: u64 = 7500;
 
 /// Where and how a flight begins: standing on its wheels, rotors turning, nacelles up.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
