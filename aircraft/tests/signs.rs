@@ -177,3 +177,17 @@ fn a_vortex_ring_is_reported_in_a_steep_descent_and_not_on_the_ground() {
     let (_, sinking) = coast(&xv15, &sinking, 1);
     assert_eq!(sinking.validity & validity::VORTEX_RING, validity::VORTEX_RING);
 }
+
+/// Switched on again after a change of attitude, the hold must not pull back to the old one.
+#[test]
+fn the_attitude_hold_forgets_while_it_is_off() {
+    let xv15 = xv15();
+    let mut state = aloft(&parked(&xv15), 0.0, 0.0);
+    state.cockpit.scas_on = 0;
+    state.plant.angular_rate_radps.x = 0.1;
+    let (state, _) = coast(&xv15, &state, 3 * TICKS_PER_S);
+    let off_rad = euler(&state).roll_rad - state.fcc.scas.held_roll_rad;
+    let roll_rad = euler(&state).roll_rad;
+    assert!(roll_rad.abs() > 5.0 * DEG, "it rolled: {:.1} deg", roll_rad / DEG);
+    assert!(off_rad.abs() < 0.7 * roll_rad.abs(), "{:.1} deg behind", off_rad / DEG);
+}
