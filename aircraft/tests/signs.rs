@@ -12,7 +12,7 @@ use flying::{DEG, RPM, TICKS_PER_S, aloft, coast, euler, parked, xv15};
 /// Mast tilts, each with a speed at which the XV-15 flies there.
 const REGIMES: [(f64, f64); 4] = [(0.0, 0.0), (30.0, 45.0), (60.0, 60.0), (90.0, 100.0)];
 
-/// How two flights of half a second differ in attitude, rate and load: with a control less without.
+/// How two flights from one state differ at their ends: the one with a control less the one without.
 struct Difference {
     rate: Vec3<Body>,
     moment: Vec3<Body>,
@@ -20,6 +20,7 @@ struct Difference {
     forward_mps: f64,
 }
 
+/// SCAS off: the airframe's own answer.
 fn difference(
     xv15: &Aircraft,
     state: &State,
@@ -119,7 +120,7 @@ fn scas_damps_every_axis_more_than_the_bare_airframe() {
     assert!(on.x < off.x && on.y < off.y && on.z < off.z, "{on:?} {off:?}");
 }
 
-/// In the inverted mirror of a banked turn every sign has to hold at once.
+/// Lift, weathercock and attitude signs have to agree for this.
 #[test]
 fn a_bank_to_the_right_turns_to_the_right() {
     let xv15 = xv15();

@@ -4,7 +4,9 @@ mod flying;
 
 use engine::frames::Vec3;
 use engine::{GRAVITY_MPS2, State, step};
-use flying::{TICKS_PER_S, aloft, calm, energy_j, in_vacuum, parked, rotors_stopped, turning, xv15};
+use flying::{
+    TICKS_PER_S, aloft, calm, energy_j, in_vacuum, parked, rotors_stopped, turning, xv15,
+};
 
 /// A body without air around it, its integration already under way.
 fn falling(turn: Vec3<engine::frames::Body>) -> (engine::Aircraft, State) {
@@ -47,7 +49,8 @@ fn a_torque_free_tumble_keeps_its_angular_momentum_and_energy() {
         let plant = &state.plant;
         plant.attitude.ned_from_body() * turning(inertia, plant.angular_rate_radps)
     };
-    let (first, first_j) = (momentum(&start), energy_j(&xv15, &start, &step(&xv15, &start, &calm()).1));
+    let (first, first_j) =
+        (momentum(&start), energy_j(&xv15, &start, &step(&xv15, &start, &calm()).1));
     let mut state = start;
     let mut worst = 0.0;
     for _ in 0..8 * TICKS_PER_S {

@@ -270,7 +270,7 @@ fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
 fn hold_nacelles(controls: &mut State, aft_norm: f64, pressed: bool) {
     if pressed {
         controls.nacelle_aft_norm = aft_norm;
-    } else if sign(controls.nacelle_aft_norm) == sign(aft_norm) {
+    } else if controls.nacelle_aft_norm * aft_norm > 0.0 {
         controls.nacelle_aft_norm = 0.0;
     }
 }
@@ -343,10 +343,8 @@ mod tests {
 
     #[test]
     fn an_unplugged_hat_lets_go_of_the_nacelles_even_where_axes_hold() {
-        let hat = AxisBinding {
-            when_unplugged: WhenUnplugged::Hold,
-            ..axis(AxisControl::NacelleAft)
-        };
+        let hat =
+            AxisBinding { when_unplugged: WhenUnplugged::Hold, ..axis(AxisControl::NacelleAft) };
         let device = Device { name: "hat".into(), axis: vec![hat], button: vec![] };
         let map = Params { device: vec![device] };
         let held = update(&map, &State::default(), &[event(EventKind::Axis, 1, 200)]);

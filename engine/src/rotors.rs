@@ -196,7 +196,8 @@ pub fn rotor(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Outputs)
     let skew2 = mu2 / max(square(lambda), 1e-6);
     let ground = 1.0 - min_half(square(0.25 / height)) / (1.0 + skew2);
     let flow_mps = sqrt(mu2 * square(tip_mps) + square(through_mps));
-    let induced_mps2 = (thrust_n * square(ground) - 2.0 * rho * area * state.induced_mps * flow_mps)
+    let induced_mps2 = (thrust_n * square(ground)
+        - 2.0 * rho * area * state.induced_mps * flow_mps)
         / (APPARENT_MASS * rho * area * params.radius_m);
 
     // Lock number grows with density.
@@ -314,6 +315,20 @@ mod tests {
         inputs.cyclic_forward_rad = 0.05;
         let (_, out) = settled(&params(), &inputs);
         assert!((out.load.force_n.x / out.thrust_n - 0.05).abs() < 1e-4);
+    }
+
+    /// The disc lags behind its mast; rolled, a disc that turns counter-clockwise goes aft as well.
+    #[test]
+    fn the_disc_stays_behind_when_its_mast_turns() {
+        let turning = |roll, pitch, mast_tilt_rate_radps| {
+            let mut inputs = Inputs { mast_tilt_rate_radps, ..hovering(0.2) };
+            inputs.motion.angular_rate_radps = Vec3::new(roll, pitch, 0.0);
+            rotor(&params(), &State::default(), &inputs).0
+        };
+        assert!(turning(0.0, 0.1, 0.0).tilt_aft_radps < 0.0, "nose up leaves it forward");
+        assert!(turning(0.0, 0.0, 0.1).tilt_aft_radps > 0.0, "the nacelle forward leaves it aft");
+        let rolled = turning(0.1, 0.0, 0.0);
+        assert!(rolled.tilt_right_radps < 0.0 && rolled.tilt_aft_radps > 0.0);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "every test crate takes its own part of it")]
 
 use engine::frames::{Attitude, Euler, Vec3};
-use engine::inputs::{DeviceEvent, EventKind, World, failures};
+use engine::inputs::{DeviceEvent, EventKind, World};
 use engine::math::{PI, cos, sin};
 use engine::pair::Pair;
 use engine::symmetry::Mirror;
@@ -39,7 +39,7 @@ pub fn aloft(parked: &State, mast_tilt_rad: f64, speed_mps: f64) -> State {
     state.plant.weight_on_wheels = 0;
     state.actuators.mast_tilt_rad = Pair::both(mast_tilt_rad);
     state.cockpit.collective_norm = 0.5;
-    // The governor's correction is that of the ground; the lever has just been raised there.
+    // About what holds the weight, so that the first second is flown and not fallen.
     let inflow_rad = engine::math::atan2(speed_mps * sin(mast_tilt_rad), 0.75 * 3.81 * 61.7);
     let collective_rad = inflow_rad + 9.0 * DEG;
     state.actuators.collective_rad = Pair::both(collective_rad);
@@ -107,7 +107,7 @@ impl Chance {
     }
 
     pub fn one_in(&mut self, n: u64) -> bool {
-        self.draw() % n == 0
+        self.draw().is_multiple_of(n)
     }
 
     pub fn of(&mut self, n: u64) -> u64 {
@@ -209,9 +209,6 @@ pub fn violent_flight(
     }
 }
 
-/// Failures that take both sides alike.
-pub const BOTH_ENGINES: u64 = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
-
 /// The mirror image of a step's inputs, flown from the mirror image of its state.
 pub fn step_in_the_mirror(xv15: &Aircraft, state: &State, inputs: &Inputs) -> State {
     let events = mirrored_events(inputs.events);
@@ -253,7 +250,8 @@ pub fn rotors_stopped(state: &State) -> State {
 pub fn energy_j(xv15: &Aircraft, state: &State, outputs: &Outputs) -> f64 {
     let gear = &xv15.landing_gear;
     let legs = &outputs.landing_gear;
-    let spring_j = |stiffness_n_per_m: f64, strain_m: f64| 0.5 * stiffness_n_per_m * strain_m * strain_m;
+    let spring_j =
+        |stiffness_n_per_m: f64, strain_m: f64| 0.5 * stiffness_n_per_m * strain_m * strain_m;
     let treads = &state.plant.treads;
     let treads_j = [treads.nose, treads.main.left, treads.main.right].map(|tread| {
         spring_j(gear.tread_stiffness_n_per_m, tread.forward_m)
@@ -265,9 +263,7 @@ pub fn energy_j(xv15: &Aircraft, state: &State, outputs: &Outputs) -> f64 {
     let plant = &state.plant;
     let (v, w) = (plant.velocity_mps, plant.angular_rate_radps);
     let balance = &outputs.balance;
-    stored_j
-        + 0.5 * balance.mass_kg * v.dot(v)
-        + 0.5 * w.dot(turning(balance.inertia, w))
+    stored_j + 0.5 * balance.mass_kg * v.dot(v) + 0.5 * w.dot(turning(balance.inertia, w))
         - balance.mass_kg * engine::GRAVITY_MPS2 * plant.position_m.z
 }
 

@@ -118,7 +118,12 @@ pub fn update(
         mean_aft_m: state.mean_aft_m + wash * washed.aft_m,
         mean_right_m: state.mean_right_m + wash * washed.right_m,
         mean_pedal_right_m: state.mean_pedal_right_m + wash * washed.pedal_right_m,
-        held_pitch_rad: follow(on.pitch, state.held_pitch_rad, sensed.euler.pitch_rad, washed.aft_m),
+        held_pitch_rad: follow(
+            on.pitch,
+            state.held_pitch_rad,
+            sensed.euler.pitch_rad,
+            washed.aft_m,
+        ),
         held_roll_rad: follow(on.roll, state.held_roll_rad, sensed.euler.roll_rad, washed.right_m),
     };
 
