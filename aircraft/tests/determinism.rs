@@ -67,8 +67,8 @@ fn a_flight_resumed_at_any_tick_has_the_bits_of_the_uninterrupted_one() {
 
 /// Beyond this nothing here can fly or fall: a vertical dive ends at some 330 m/s.
 const SPEED_MPS_MAX: f64 = 400.0;
-/// A tumble; the hands above never make one much faster than 10 rad/s.
-const TURN_RADPS_MAX: f64 = 60.0;
+/// A tumble: these hands make one of 6 rad/s.
+const TURN_RADPS_MAX: f64 = 20.0;
 
 #[test]
 fn no_flight_however_violent_breaks_the_numbers() {
