@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 
-use crate::fly::{Common, Plan, pilot};
+use crate::fly::{Common, Plan};
 use crate::{report, verify};
 
 /// The demonstration flight.
@@ -19,15 +19,12 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common)?;
     let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP)?;
-    plan.flight.hands.push(pilot("demo", &map)?);
+    plan.set_pilot("demo", &map)?;
     plan.set_map(map)?;
-    println!(
-        "Vertical take-off, climb, hover turn, dash to 60 kt, landing: flown by a pilot model"
-    );
-    println!("whose stick, lever and pedals take the path that hardware takes. Ctrl-C lands.");
-    match (&plan.flight.link, args.common.fast) {
-        (Some(link), false) => println!("Live in FlightGear at {}.", link.destination()),
-        (Some(_), true) | (None, _) => {}
+    say!("Vertical take-off, climb, hover turn, dash to 60 kt, landing: flown by a pilot model");
+    say!("whose stick, lever and pedals take the path that hardware takes. Ctrl-C lands.");
+    if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
+        say!("Live in FlightGear at {}.", link.destination());
     }
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;
@@ -40,7 +37,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     {
         let saved = out.with_extension("rrd");
         let bytes = crate::view::save(out, &saved)?;
-        println!("{}: {:.1} MB, for `rerun {0}`", saved.display(), bytes as f64 * 1e-6);
+        say!("{}: {:.1} MB, for `rerun {0}`", saved.display(), bytes as f64 * 1e-6);
     }
     Ok(ExitCode::from(status))
 }

@@ -14,7 +14,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use recorder::pilots::{PILOTS, Pilot};
 use recorder::script::Script;
-use recorder::{Flight, Hands, Landing, Progress, fly};
+use recorder::{Flight, Landing, Progress, fly};
 
 use crate::{identity, report};
 
@@ -88,7 +88,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         map.device.extend(pilot.device);
     }
     if let Some(name) = &args.pilot {
-        plan.flight.hands.push(pilot(name, &map)?);
+        plan.set_pilot(name, &map)?;
     }
     if let Some(path) = &args.script {
         let text = read(path)?;
@@ -108,6 +108,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 pub struct Plan {
     /// What will be flown.
     pub flight: Flight,
+    /// Names of the pilot model's phases, for the line of progress.
+    phases: Vec<&'static str>,
 }
 
 impl Plan {
@@ -127,6 +129,7 @@ impl Plan {
             );
         }
         Ok(Self {
+            phases: Vec::new(),
             flight: Flight {
                 aircraft,
                 start,
@@ -145,6 +148,16 @@ impl Plan {
         })
     }
 
+    /// Lets the pilot model of that name fly.
+    pub fn set_pilot(&mut self, name: &str, map: &cockpit::Params) -> Result<()> {
+        let Some(pilot) = Pilot::named(name, map) else {
+            bail!("no pilot model is called `{name}`; there are {}", pilot_names());
+        };
+        self.phases = pilot.phases();
+        self.flight.hands.push(Box::new(pilot));
+        Ok(())
+    }
+
     /// The cockpit map as flown.
     pub fn set_map(&mut self, map: cockpit::Params) -> Result<()> {
         self.flight.setup.cockpit_toml = toml::to_string(&map)?;
@@ -158,7 +171,7 @@ impl Plan {
         *map = aircraft::cockpit(&name, &text)?;
         let sticks = recorder::sticks::Sticks::start(map)?;
         for (number, name) in &sticks.found {
-            eprintln!("device {number}: {name}");
+            complain!("device {number}: {name}");
         }
         self.flight.sticks = Some(sticks);
         Ok(())
@@ -176,26 +189,30 @@ impl Plan {
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
         let landing = thread::scope(|scope| {
-            let flying = scope.spawn(|| fly(self.flight, &progress));
+            let flight = self.flight;
+            let flying = scope.spawn(|| fly(flight, &progress));
             let mut told_of_log = false;
             while !flying.is_finished() {
                 thread::sleep(Duration::from_millis(100));
                 let now = progress.now();
+                // Phases count from 1; 0 is before the first.
+                let phase = usize::try_from(now.phase)
+                    .ok()
+                    .and_then(|number| self.phases.get(number.checked_sub(1)?));
                 bar.set_message(format!(
-                    "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  overruns {}  \
-                     phase {}",
+                    "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  {} late  {}",
                     now.tick as f64 * STEP_S,
                     now.height_m,
                     report::knots(now.airspeed_mps),
                     report::compass_deg(now.heading_rad),
                     now.overruns,
-                    now.phase
+                    phase.unwrap_or(&"")
                 ));
                 bar.tick();
                 if now.log_failed && !told_of_log {
                     told_of_log = true;
                     bar.suspend(|| {
-                        eprintln!("WARNING: the log cannot be written any further; flying on");
+                        complain!("WARNING: the log cannot be written any further; flying on");
                     });
                 }
             }
@@ -204,14 +221,6 @@ impl Plan {
         bar.finish_and_clear();
         let landing = landing.map_err(|_| anyhow::anyhow!("the flight died of a fault of ours"))?;
         Ok(landing?)
-    }
-}
-
-/// The pilot model of that name.
-pub fn pilot(name: &str, map: &cockpit::Params) -> Result<Box<dyn Hands>> {
-    match Pilot::named(name, map) {
-        Some(pilot) => Ok(Box::new(pilot)),
-        None => bail!("no pilot model is called `{name}`; there are {}", pilot_names()),
     }
 }
 

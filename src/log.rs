@@ -1,11 +1,12 @@
 //! `tiltrotor log`.
 
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
 use engine::STEP_S;
-use logs::{Ending, FlightReader, LogError};
+use logs::{Ending, FlightReader, LogError, Messages};
 use recorder::statistics::Statistics;
 
 use crate::report;
@@ -18,23 +19,32 @@ pub enum Command {
         /// The log
         log: PathBuf,
     },
+    /// Every recorded number of a log, a line of JSON a message, units in the names
+    Cat {
+        /// The log
+        log: PathBuf,
+        /// Only this channel (/state, /inputs, /hardware, /timing, /events, /outputs)
+        #[arg(long)]
+        topic: Option<String>,
+    },
 }
 
 /// Carries it out.
 pub fn run(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Info { log } => info(log),
+        Command::Cat { log, topic } => cat(log, topic.as_deref()),
     }
 }
 
 fn info(log: &Path) -> Result<ExitCode> {
     let mut reader = FlightReader::open(log)?;
-    println!("{}", log.display());
+    say!("{}", log.display());
     for (key, value) in &reader.identity.0 {
-        println!("  {key:<16} {value}");
+        say!("  {key:<16} {value}");
     }
     for (name, text) in reader.setup.files() {
-        println!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
+        say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
     }
     let (mut ticks, mut events, mut digest) = (0, 0, 0);
     let mut statistics = Statistics::new();
@@ -53,19 +63,19 @@ fn info(log: &Path) -> Result<ExitCode> {
             statistics.add(&timing);
         }
     };
-    println!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
-    println!("  {:<16} {events}", "device events");
-    println!("  {:<16} {} late ticks", "overruns", statistics.overruns);
-    println!(
+    say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
+    say!("  {:<16} {events}", "device events");
+    say!("  {:<16} {} late ticks", "overruns", statistics.overruns);
+    say!(
         "  {:<16} p50 {:.3} ms, p99.9 {:.3} ms, max {:.3} ms",
         "to picture",
         statistics.sent.percentile_ms(50.0),
         statistics.sent.percentile_ms(99.9),
         statistics.sent.longest_ms()
     );
-    println!("  {:<16} {digest:016x}", "digest");
+    say!("  {:<16} {digest:016x}", "digest");
     for happening in &reader.happenings {
-        println!("  {:>10.3} s  {happening}", happening.tick as f64 * STEP_S);
+        say!("  {:>10.3} s  {happening}", happening.tick as f64 * STEP_S);
     }
     let ending = match (disorder, reader.ending()) {
         (Some(error), _) => format!("unusable from here: {error}"),
@@ -73,6 +83,39 @@ fn info(log: &Path) -> Result<ExitCode> {
         (None, Some(Ending::Damaged(why))) => format!("damaged from here: {why}"),
         (None, _) => "not closed: killed, or cut".into(),
     };
-    println!("  {:<16} {ending}", "end of the log");
+    say!("  {:<16} {ending}", "end of the log");
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
+}
+
+fn cat(log: &Path, only: Option<&str>) -> Result<ExitCode> {
+    // Whoever closes the pipe early, as `head` does, has seen enough.
+    let mut out = BufWriter::new(io::stdout().lock());
+    let mut messages = Messages::open(log)?;
+    for message in &mut messages {
+        if only.is_some_and(|only| only != message.topic) {
+            continue;
+        }
+        let Some(fields) = message.fields() else { continue };
+        let numbers: Vec<_> =
+            fields?.iter().map(|field| format!("\"{}\":{}", field.path, field.value)).collect();
+        let written = writeln!(
+            out,
+            "{{\"topic\":\"{}\",\"time_ns\":{},{}}}",
+            message.topic,
+            message.time_ns,
+            numbers.join(",")
+        );
+        if written.is_err() {
+            return Ok(ExitCode::SUCCESS);
+        }
+    }
+    let _ = out.flush();
+    Ok(match messages.ending() {
+        Ending::Closed => ExitCode::SUCCESS,
+        Ending::Truncated => ExitCode::from(report::NEVER_CLOSED),
+        Ending::Damaged(why) => {
+            complain!("tiltrotor: {}: {why}", log.display());
+            ExitCode::from(report::UNUSABLE)
+        }
+    })
 }

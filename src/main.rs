@@ -1,5 +1,21 @@
 //! The `tiltrotor` command: flies, reflies, verifies and shows.
 
+/// Prints a line. Whoever closes the pipe early, as `head` does, has seen enough: no error, no panic.
+macro_rules! say {
+    ($($what:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stdout(), $($what)*);
+    }};
+}
+
+/// Prints a line for the eye only, on standard error.
+macro_rules! complain {
+    ($($what:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($what)*);
+    }};
+}
+
 mod demo;
 mod fly;
 mod identity;
@@ -49,7 +65,7 @@ fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
     };
     run.unwrap_or_else(|error| {
-        eprintln!("tiltrotor: {error:#}");
+        complain!("tiltrotor: {error:#}");
         ExitCode::from(report::UNUSABLE)
     })
 }

@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         flight.reader.timings.clear();
         ticks += 1;
     }
-    println!(
+    say!(
         "{}: {:.1} s reflown at {} times real time, {} packets sent to {}, {} not",
         args.log.display(),
         ticks as f64 * STEP_S,

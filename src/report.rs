@@ -7,6 +7,8 @@ use recorder::statistics::Durations;
 
 /// A log that cannot be used, or a command that cannot be carried out.
 pub const UNUSABLE: u8 = 2;
+/// A log that is exact as far as it goes, but was never closed.
+pub const NEVER_CLOSED: u8 = 3;
 /// The flight went on, but its log ends early.
 pub const LOG_CUT_SHORT: u8 = 4;
 
@@ -26,7 +28,7 @@ pub fn compass_deg(heading_rad: f64) -> f64 {
 /// Sums up a flight on standard output.
 pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     let flown = &landing.statistics;
-    println!(
+    say!(
         "flown      {:.1} s, {} ticks of {:.0} ms, {} device events",
         flown.ticks as f64 * STEP_S,
         flown.ticks,
@@ -34,7 +36,7 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
         landing.events
     );
     if real_time {
-        println!("overruns   {} ticks ended after the next one was due", flown.overruns);
+        say!("overruns   {} ticks ended after the next one was due", flown.overruns);
         line("late by", &flown.late, "from when a tick was due until it ran");
     }
     line("step", &flown.step, "the flight model");
@@ -42,28 +44,28 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     line("to picture", &flown.sent, "from sampling the inputs to the packet for FlightGear");
     if flown.latency.count() > 0 {
         line("latency", &flown.latency, "from the kernel's time of an input to the packet");
-        println!(
+        say!(
             "           (limit of CS-FSTD(A): {LATENCY_LIMIT_MS} ms; the paper: 2.5 to 5 ms, peaks of \
              40 ms)"
         );
     }
-    println!("FlightGear {} packets sent, {} not", landing.sent, landing.unsent);
+    say!("FlightGear {} packets sent, {} not", landing.sent, landing.unsent);
     match &landing.log {
-        Ok(closed) => println!(
+        Ok(closed) => say!(
             "log        {out}, {:.1} MB ({:.0} B a tick), digest {:016x}, nothing dropped",
             closed.bytes as f64 * 1e-6,
             closed.bytes as f64 / flown.ticks.max(1) as f64,
             closed.digest
         ),
-        Err(error) => println!("log        {out} ends before the flight did: {error}"),
+        Err(error) => say!("log        {out} ends before the flight did: {error}"),
     }
     for refused in &landing.refused {
-        println!("note       {refused}");
+        say!("note       {refused}");
     }
 }
 
 fn line(name: &str, durations: &Durations, what: &str) {
-    println!(
+    say!(
         "{name:<10} p50 {:.3} ms, p99 {:.3}, p99.9 {:.3}, max {:.3} ms: {what}",
         durations.percentile_ms(50.0),
         durations.percentile_ms(99.0),

@@ -44,19 +44,19 @@ pub fn verify_one(log: &Path) -> u8 {
     bar.finish_and_clear();
     match verdict {
         Ok(verdict) => {
-            println!("{}: {verdict}", log.display());
+            say!("{}: {verdict}", log.display());
             let took_s = started.elapsed().as_secs_f64();
             let flown_s = verdict.exact as f64 * STEP_S;
-            println!("reflown in {took_s:.2} s, {:.0} times real time", flown_s / took_s);
+            say!("reflown in {took_s:.2} s, {:.0} times real time", flown_s / took_s);
             match verdict.outcome() {
                 Outcome::Exact => 0,
                 Outcome::Diverged => 1,
                 Outcome::Damaged => report::UNUSABLE,
-                Outcome::Incomplete => 3,
+                Outcome::Incomplete => report::NEVER_CLOSED,
             }
         }
         Err(error) => {
-            eprintln!("tiltrotor: {}: {error}", log.display());
+            complain!("tiltrotor: {}: {error}", log.display());
             report::UNUSABLE
         }
     }

@@ -37,7 +37,7 @@ mod with_rerun {
             bail!("{} exists; overwrite it with --force", saved.display());
         }
         let bytes = save(&args.log, &saved)?;
-        println!("{}: {:.1} MB for rerun", saved.display(), bytes as f64 * 1e-6);
+        say!("{}: {:.1} MB for rerun", saved.display(), bytes as f64 * 1e-6);
         if args.save.is_none() {
             Command::new("rerun").arg(&saved).spawn().with_context(|| {
                 format!(

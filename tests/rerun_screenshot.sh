@@ -1,19 +1,23 @@
 #!/bin/sh
 # Opens a flight in the rerun viewer without a screen and takes its picture.
 #
-#   tests/rerun_screenshot.sh FLIGHT.rrd OUT.png
+#   tests/rerun_screenshot.sh FLIGHT.rrd OUT.png [SECONDS]
 #
 # Needs no GPU and no X. Fails unless the picture shows something: an empty window has few colours.
-# The viewer comes from PyPI into target/, Vulkan's software driver from apt when it is missing.
+# Without SECONDS the picture is taken once everything is loaded, at twice the resolution, under the
+# viewer's first notices. With SECONDS the viewer plays that long (not exactly: it paces itself),
+# and the notices have gone. The viewer comes from PyPI into target/, Vulkan's software driver from
+# apt when it is missing.
 set -eu
 
 VERSION=0.36.3
 SECONDS_MAX=180
-COLOURS_MIN=500
+COLOURS_MIN=2500
 
-[ $# -eq 2 ] || { echo "usage: $0 FLIGHT.rrd OUT.png" >&2; exit 2; }
+[ $# -eq 2 ] || [ $# -eq 3 ] || { echo "usage: $0 FLIGHT.rrd OUT.png [SECONDS]" >&2; exit 2; }
 flight=$1
 picture=$2
+play=${3:-}
 [ -s "$flight" ] || { echo "$0: no recording at $flight" >&2; exit 2; }
 repository=$(cd "$(dirname "$0")/.." && pwd)
 venv=${CARGO_TARGET_DIR:-$repository/target}/rerun-$VERSION
@@ -36,12 +40,42 @@ fi
 
 rm -f "$picture"
 log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-if ! RERUN_ANALYTICS=0 timeout "$SECONDS_MAX" "$venv/bin/rerun" --headless \
-    --window-size 1400x900 --screenshot-to "$picture" "$flight" >"$log" 2>&1; then
-    cat "$log" >&2
-    echo "$0: the viewer failed or took longer than $SECONDS_MAX s" >&2
-    exit 1
+viewer=
+trap '[ -z "$viewer" ] || kill "$viewer" 2>/dev/null || true; rm -f "$log"' EXIT
+# Only listens to this machine, where another viewer may have the usual port.
+port=$("$venv/bin/python" -c '
+import socket
+with socket.socket() as s:
+    s.bind(("127.0.0.1", 0))
+    print(s.getsockname()[1])')
+export RERUN_ANALYTICS=0
+set -- timeout "$SECONDS_MAX" "$venv/bin/rerun" --headless --bind 127.0.0.1 --port "$port" \
+    --window-size 1400x900
+
+if [ -z "$play" ]; then
+    "$@" --screenshot-to "$picture" "$flight" >"$log" 2>&1 || {
+        cat "$log" >&2
+        echo "$0: the viewer failed or took longer than $SECONDS_MAX s" >&2
+        exit 1
+    }
+else
+    "$@" "$flight" >"$log" 2>&1 &
+    viewer=$!
+    sleep "$play"
+    # The viewer writes the file, and answers before it has.
+    timeout 60 "$venv/bin/python" - "$port" "$picture" <<'PYTHON'
+import os, sys, time
+from rerun.experimental import ViewerClient
+
+port, name = sys.argv[1:]
+ViewerClient(f"rerun+http://127.0.0.1:{port}/proxy").save_screenshot(os.path.abspath(name))
+size = -1
+for _ in range(80):
+    time.sleep(0.5)
+    before, size = size, os.path.getsize(name) if os.path.exists(name) else -1
+    if 0 < size == before:
+        break
+PYTHON
 fi
 [ -s "$picture" ] || { cat "$log" >&2; echo "$0: the viewer took no picture" >&2; exit 1; }
 
@@ -52,7 +86,7 @@ from PIL import Image
 
 name, least = sys.argv[1], int(sys.argv[2])
 picture = Image.open(name).convert("RGB")
-colours = len(set(picture.getdata()))
+colours = len(picture.getcolors(picture.width * picture.height))
 print(f"{name}: {picture.width} x {picture.height} pixels, {colours} colours")
 if colours < least:
     sys.exit(f"{name}: only {colours} colours, at least {least} expected: is the window empty?")

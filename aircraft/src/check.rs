@@ -13,7 +13,7 @@ const LARGEST: f64 = 1e9;
 /// What the engine divides by is at least this.
 const SMALLEST: f64 = 1e-6;
 
-/// Bounds in SI units, by the end of a key's table and the key. What is not here is within ±LARGEST.
+/// Bounds by key, in SI units. What is not here is within ±[`LARGEST`].
 const BOUNDS: &[(&str, f64, f64)] = &[
     // Divided by.
     ("radius_m", SMALLEST, LARGEST),

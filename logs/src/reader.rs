@@ -5,15 +5,18 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use engine::State;
 use engine::inputs::DeviceEvent;
+use engine::{Outputs, State};
 use mcap::McapError;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
+use crate::fields::{Field, fields};
 use crate::records::{
-    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, STATE, StateRecord, TIMING,
-    TimingRecord, first_digest,
+    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
+    TIMING, TimingRecord, first_digest,
 };
 use crate::setup::{Identity, METADATA, Setup};
 use crate::{LogError, cdr};
@@ -104,7 +107,7 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
-                Some(Item::Message(topic, data)) if topic == STATE => {
+                Some(Item::Message(topic, _, data)) if topic == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
                         return Err(no_flight(&format!("{missing} is not in it")));
@@ -147,7 +150,7 @@ impl FlightReader {
                 self.ending = Some(self.records.ending());
                 return Ok(None);
             };
-            let Item::Message(topic, data) = item else { continue };
+            let Item::Message(topic, _, data) = item else { continue };
             match topic.as_str() {
                 HARDWARE => {
                     self.chain.add(&data);
@@ -202,6 +205,72 @@ impl FlightReader {
     }
 }
 
+/// Every message of a log as it stands there, whatever its channel.
+pub struct Messages {
+    records: Records,
+}
+
+/// One message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// Channel.
+    pub topic: String,
+    /// Time since the start of the flight, ns.
+    pub time_ns: u64,
+    /// Its bytes.
+    pub data: Vec<u8>,
+}
+
+impl Messages {
+    /// Opens a log.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn open(path: &Path) -> Result<Self, LogError> {
+        let file = File::open(path).map_err(|error| LogError::open(path, error))?;
+        Ok(Self { records: Records::new(file) })
+    }
+
+    /// How the file ends, once the last message has been read.
+    pub fn ending(&self) -> Ending {
+        self.records.ending()
+    }
+}
+
+impl Iterator for Messages {
+    type Item = Message;
+
+    fn next(&mut self) -> Option<Message> {
+        loop {
+            if let Item::Message(topic, time_ns, data) = self.records.next()? {
+                return Some(Message { topic, time_ns, data });
+            }
+        }
+    }
+}
+
+impl Message {
+    /// The numbers of a recorded struct; `None` on channels for viewers.
+    ///
+    /// # Errors
+    /// When the bytes are not what the channel holds.
+    pub fn fields(&self) -> Option<Result<Vec<Field>, LogError>> {
+        fn of<T: DeserializeOwned + Serialize>(data: &[u8]) -> Result<Vec<Field>, LogError> {
+            Ok(fields(&cdr::decode::<T>(data)?)?)
+        }
+        let decode = match self.topic.as_str() {
+            HARDWARE => of::<DeviceEvent>,
+            INPUTS => of::<InputsRecord>,
+            STATE => of::<StateRecord>,
+            TIMING => of::<TimingRecord>,
+            EVENTS => of::<EventRecord>,
+            OUTPUTS => of::<Outputs>,
+            _ => return None,
+        };
+        Some(decode(&self.data))
+    }
+}
+
 fn no_flight(why: &str) -> LogError {
     LogError::NotAFlight(format!("an MCAP file, but not a tiltrotor flight: {why}"))
 }
@@ -224,7 +293,7 @@ fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
 enum Item {
     Metadata(String, BTreeMap<String, String>),
     Attachment(String, Vec<u8>),
-    Message(String, Vec<u8>),
+    Message(String, u64, Vec<u8>),
 }
 
 /// Records of the file, up to its end or the first damage.
@@ -294,7 +363,8 @@ impl Records {
                         }
                         Record::Message { header, data } => {
                             if let Some(topic) = self.topics.get(&header.channel_id) {
-                                return Ok(Some(Item::Message(topic.clone(), data.into_owned())));
+                                let (topic, data) = (topic.clone(), data.into_owned());
+                                return Ok(Some(Item::Message(topic, header.log_time, data)));
                             }
                         }
                         Record::Metadata(metadata) => {

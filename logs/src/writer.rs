@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::BufWriter;
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 use engine::frames::{Attitude, Vec3};
@@ -232,7 +232,7 @@ impl FlightWriter {
     pub fn finish(mut self) -> Result<Closed, LogError> {
         self.mcap.finish()?;
         let digest = self.chain.digest();
-        let file = self.mcap.into_inner().into_inner().map_err(|error| error.into_error())?;
+        let file = self.mcap.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
         Ok(Closed { bytes: file.metadata()?.len(), digest })
     }
 

@@ -13,7 +13,7 @@ pub mod script;
 pub mod statistics;
 #[cfg(feature = "sticks")]
 pub mod sticks;
-mod writer;
+pub mod writer;
 
 pub use clock::Pace;
 pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};

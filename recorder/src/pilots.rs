@@ -219,6 +219,11 @@ impl Pilot {
         })
     }
 
+    /// Names of its phases, in order.
+    pub fn phases(&self) -> Vec<&'static str> {
+        self.phases.iter().map(|(name, _)| *name).collect()
+    }
+
     /// The phase's orders for this moment, and whether it is over.
     fn order(&mut self, phase: Phase, seen: &Outputs, reach: &mut Reach<'_>) -> bool {
         let since_s = (reach.tick - self.since_tick) as f64 * STEP_S;

@@ -64,8 +64,8 @@ pub struct Recording {
 impl Recording {
     /// Starts the thread.
     pub fn start(writer: FlightWriter, initial: &State) -> Self {
-        let (ring, items) = RingBuffer::new(RING_ITEMS);
-        let (view, views) = RingBuffer::new(VIEW_ITEMS);
+        let (ring, items) = touched_ring(RING_ITEMS, Item::State(*initial));
+        let (view, views) = touched_ring(VIEW_ITEMS, (Outputs::default(), Attitude::default()));
         let failed = Arc::new(AtomicBool::new(false));
         let done = Arc::new(AtomicBool::new(false));
         let scribe = Scribe {
@@ -146,6 +146,14 @@ impl Recording {
         let thread = self.thread.take().ok_or_else(writer_died)?;
         thread.join().map_err(|_| writer_died())?
     }
+}
+
+/// A ring whose every slot has been written once: the loop meets no page that is not there yet.
+fn touched_ring<T: Copy>(capacity: usize, item: T) -> (Producer<T>, Consumer<T>) {
+    let (mut producer, mut consumer) = RingBuffer::new(capacity);
+    while producer.push(item).is_ok() {}
+    while consumer.pop().is_ok() {}
+    (producer, consumer)
 }
 
 fn writer_died() -> LogError {

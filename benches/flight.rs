@@ -1,0 +1,139 @@
+//! What a tick costs: flying it, handing it to the log's writer, reflying it from a log.
+//!
+//! `cargo bench --no-default-features`. The yardsticks are there so that figures from different
+//! machines, or from a busy one, can be read against each other.
+
+use std::cell::Cell;
+use std::fs;
+use std::path::PathBuf;
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use engine::inputs::World;
+use engine::start::Start;
+use engine::{Aircraft, Inputs, State, step};
+use logs::records::{InputsRecord, TimingRecord};
+use logs::{FlightWriter, Identity, Setup};
+use recorder::pilots::Pilot;
+use recorder::writer::{Item, Recording};
+use recorder::{Flight, Progress, fly};
+
+fn main() {
+    divan::main();
+}
+
+/// Ticks of the flight that is reflown: a minute.
+const TICKS: u64 = 15_000;
+
+fn ready() -> (Aircraft, Start) {
+    let mut aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("our own file");
+    aircraft.cockpit = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).expect("our own file");
+    let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).expect("our own file");
+    (aircraft, start)
+}
+
+fn scratch(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("tiltrotor-bench-{}-{name}.mcap", std::process::id()))
+}
+
+fn setup() -> Setup {
+    Setup {
+        aircraft_toml: aircraft::XV15.into(),
+        cockpit_toml: aircraft::PILOT_MAP.into(),
+        scenario_toml: aircraft::DEFAULT_SCENARIO.into(),
+    }
+}
+
+/// A flight by the hover pilot, as fast as it goes.
+fn flown(name: &str) -> (PathBuf, State) {
+    let (aircraft, start) = ready();
+    let pilot = Pilot::named("hover", &aircraft.cockpit).expect("it exists");
+    let initial = start.state(&aircraft);
+    let out = scratch(name);
+    let flight = Flight {
+        aircraft,
+        start,
+        setup: setup(),
+        identity: Identity::new(),
+        robot_description: String::new(),
+        hands: vec![Box::new(pilot)],
+        #[cfg(feature = "sticks")]
+        sticks: None,
+        out: out.clone(),
+        force: true,
+        real_time: false,
+        ticks_max: Some(TICKS),
+        link: None,
+    };
+    fly(flight, &Progress::default()).expect("a flight").log.expect("a whole log");
+    (out, initial)
+}
+
+/// One tick of the flight model, hovering.
+#[divan::bench]
+fn one_tick(bencher: Bencher) {
+    let (aircraft, start) = ready();
+    let mut state = start.state(&aircraft);
+    state.cockpit.collective_norm = 0.75;
+    let inputs = Inputs { events: &[], world: World::default() };
+    for _ in 0..2_000 {
+        state = step(&aircraft, &state, &inputs).0;
+    }
+    bencher.bench_local(|| step(&aircraft, divan::black_box(&state), &inputs));
+}
+
+/// What the loop's thread pays for recording a tick: inputs, state and timing into the ring, while
+/// the writer thread empties it. Paced, as in flight: ten ticks, then the writer gets its turn.
+#[divan::bench(sample_size = 10)]
+fn hand_over_of_a_tick(bencher: Bencher) {
+    let (aircraft, start) = ready();
+    let state = start.state(&aircraft);
+    let out = scratch("hand-over");
+    let identity = Identity::new();
+    let writer = FlightWriter::create(&out, &setup(), &identity, &aircraft, "", &state, true)
+        .expect("a log");
+    let mut recording = Recording::start(writer, &state);
+    let tick = Cell::new(0);
+    bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
+        let tick = tick.replace(tick.get() + 1);
+        recording.put(Item::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
+        recording.put(Item::State(State { tick: tick + 1, ..state }));
+        recording.put(Item::Timing(TimingRecord { tick, ..TimingRecord::default() }));
+    });
+    recording.finish().expect("a whole log");
+    let _ = fs::remove_file(out);
+}
+
+/// Every few hundred ticks the writer needs a moment: it shares two cores with the bench.
+fn recording_has_room(tick: u64) {
+    if tick.is_multiple_of(500) {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+}
+
+/// A minute of flight reflown from its log, reading included. Items are ticks: 250 a second is real
+/// time.
+#[divan::bench(sample_count = 10, sample_size = 1)]
+fn verify_a_minute(bencher: Bencher) {
+    let (log, _) = flown("verify");
+    bencher
+        .counter(ItemsCount::new(TICKS))
+        .bench_local(|| replay::verify(&log, |_| ()).expect("a log").exact);
+    let _ = fs::remove_file(log);
+}
+
+/// Yardstick: copying a megabyte.
+#[divan::bench]
+fn yardstick_copy_of_a_megabyte(bencher: Bencher) {
+    let from = vec![1_u8; 1 << 20];
+    let mut to = vec![0_u8; 1 << 20];
+    bencher.bench_local(|| divan::black_box(&mut to).copy_from_slice(divan::black_box(&from)));
+}
+
+/// Yardstick: a thousand sines.
+#[divan::bench]
+fn yardstick_thousand_sines(bencher: Bencher) {
+    bencher.bench_local(|| {
+        (0..1000).map(|i| engine::math::sin(f64::from(divan::black_box(i)) * 0.01)).sum::<f64>()
+    });
+}

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# One flight, reflown to the same bits by every build and on every kind of CPU at hand: debug, release,
+# release for this very CPU with link-time optimisation, a C library that may not use AVX2 and FMA,
+# and, where qemu is installed, a CPU that has neither, and 64-bit Arm.
+# Usage: tests/determinism.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+headless=(--no-default-features)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+build() { # NAME, cargo's options...
+    local name=$1
+    shift
+    cargo build --quiet "${headless[@]}" --target-dir "target/$name" "$@"
+}
+
+echo "building: release, debug, release for this CPU with link-time optimisation"
+build headless --release
+build headless
+RUSTFLAGS="-C target-cpu=native" CARGO_PROFILE_RELEASE_LTO=fat build native --release
+release=target/headless/release/tiltrotor
+debug=target/headless/debug/tiltrotor
+native=target/native/release/tiltrotor
+
+"$release" demo --fast --no-flightgear --out "$work/flight.mcap" >"$work/demo.txt" || {
+    cat "$work/demo.txt"
+    exit 1
+}
+
+passed=0
+skipped=0
+exact() { # WHAT, command...
+    local what=$1
+    shift
+    if "$@" verify "$work/flight.mcap" >"$work/out.txt" 2>&1; then
+        printf 'exact    %s\n' "$what"
+        passed=$((passed + 1))
+    else
+        printf 'DIVERGED %s\n' "$what"
+        cat "$work/out.txt"
+        exit 1
+    fi
+}
+skip() {
+    printf 'skipped  %s\n' "$1"
+    skipped=$((skipped + 1))
+}
+
+exact "release" "$release"
+exact "debug" "$debug"
+exact "release for this CPU, link-time optimised" "$native"
+tunables=glibc.cpu.hwcaps=-AVX2,-FMA
+exact "release, C library without AVX2 and FMA" env "GLIBC_TUNABLES=$tunables" "$release"
+exact "debug, C library without AVX2 and FMA" env "GLIBC_TUNABLES=$tunables" "$debug"
+if command -v qemu-x86_64 >/dev/null; then
+    exact "release, on a Nehalem (qemu)" qemu-x86_64 -cpu Nehalem "$release"
+else
+    skip "a Nehalem: no qemu-x86_64 (Debian package qemu-user)"
+fi
+arm=${TILTROTOR_AARCH64:-}
+if [ -n "$arm" ] && command -v qemu-aarch64 >/dev/null; then
+    exact "64-bit Arm (qemu)" qemu-aarch64 -L /usr/aarch64-linux-gnu "$arm"
+else
+    skip "64-bit Arm: TILTROTOR_AARCH64 names no binary, or no qemu-aarch64"
+fi
+
+# The other way round: what the debug build flies, the native one reflies.
+"$debug" fly --pilot hover --fast --duration 5 --no-flightgear --force --out "$work/flight.mcap" >/dev/null
+exact "flown by debug, reflown for this CPU" "$native"
+echo "$passed exact, 0 diverged, $skipped skipped"
