@@ -333,6 +333,34 @@ fn a_file_cut_short_is_exact_up_to_there_or_refused() {
 }
 
 #[test]
+fn a_log_that_ends_in_the_middle_is_not_replayed_without_a_word() {
+    let whole = fs::read(short_flight()).expect("a log");
+    let place = folder("refly-replay");
+    let replay = |bytes: &[u8]| {
+        let log = place.join("replayed.mcap");
+        fs::write(&log, bytes).expect("a file");
+        tiltrotor(&["replay", text(&log), "--speed", "100", "--flightgear", "127.0.0.1:9"])
+    };
+    replay(&whole).ends(OK).says("1.0 s reflown");
+    let cut = &whole[..whole.len() * 4 / 5];
+    replay(cut).ends(INCOMPLETE).says(" s reflown").says("without having been closed");
+    let mut flipped = whole.clone();
+    flipped[whole.len() * 4 / 5] ^= 1;
+    replay(&flipped).ends(UNUSABLE).says(" s reflown").says("the file is damaged after that");
+}
+
+#[test]
+fn every_recorded_number_can_be_read_as_json() {
+    let said = tiltrotor(&["log", "cat", text(short_flight()), "--topic", "/state"]).ends(OK);
+    let lines: Vec<serde_json::Value> =
+        said.out.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    assert_eq!(lines.len(), 251, "the first state, and one a tick");
+    let height = |line: &serde_json::Value| line["state.plant.position_m.z"].as_f64();
+    assert!(lines.iter().all(|line| height(line).is_some()), "{}", lines[0]);
+    assert_eq!(lines[250]["time_ns"], 1_000_000_000);
+}
+
+#[test]
 fn bytes_after_the_end_are_damage() {
     let mut bytes = fs::read(short_flight()).expect("a log");
     bytes.extend_from_slice(b"and more");

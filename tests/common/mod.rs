@@ -28,6 +28,8 @@ pub const DIVERGED: i32 = 1;
 pub const UNUSABLE: i32 = 2;
 /// Exact, but never closed.
 pub const INCOMPLETE: i32 = 3;
+/// The flight went on, its log did not.
+pub const LOG_CUT_SHORT: i32 = 4;
 
 /// What the command said, and how it ended.
 #[derive(Debug)]
