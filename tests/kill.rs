@@ -126,7 +126,7 @@ fn recorded(log: &Path) -> (u64, Duration, Ending) {
     while let Some(tick) = reader.next_tick().expect("whole ticks") {
         last = tick.record.state.tick;
         // The tick's own, unless the file was cut between the two.
-        wall_ns = reader.timings.drain(..).last().map_or(wall_ns, |timing| timing.wall_ns);
+        wall_ns = reader.timings.drain(..).next_back().map_or(wall_ns, |timing| timing.wall_ns);
     }
     wall_ns = reader.timings.last().map_or(wall_ns, |timing| timing.wall_ns);
     (last, Duration::from_nanos(wall_ns), reader.ending().expect("an end").clone())

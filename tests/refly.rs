@@ -11,7 +11,8 @@ use common::{
     place_of, said, text, tiltrotor, verify,
 };
 use engine::inputs::DeviceEvent;
-use logs::records::{HARDWARE, INPUTS, InputsRecord, STATE};
+use logs::cdr;
+use logs::records::{EVENTS, HARDWARE, INPUTS, InputsRecord, STATE, TIMING};
 
 /// Twenty seconds by the pilot model: on the ground, lift-off, hover.
 fn flight() -> &'static Path {
@@ -126,7 +127,7 @@ fn one_bit_of_any_field_at_any_tick_is_found() {
         })
         .collect();
     all(bits, |(tick, path, bit)| {
-        let mut log = Forgery { metadata: whole.metadata.clone(), ..Forgery::of(short_flight()) };
+        let mut log = whole.clone();
         let start = place_of::<logs::records::StateRecord>(&format!("state.{path}"));
         log.bytes(STATE, tick)[start + bit as usize / 8] ^= 1 << (bit % 8);
         let file = place.join(format!("{tick}-{path}-{bit}.mcap"));
@@ -266,6 +267,15 @@ fn a_missing_tick_is_named() {
 }
 
 #[test]
+fn a_closed_log_that_ends_in_the_middle_of_a_tick_is_not_accepted() {
+    let log = forged("half-tick", |log| {
+        let place = *log.places(STATE).last().expect("a state");
+        log.messages.truncate(place);
+    });
+    verify(&log).ends(UNUSABLE).says("exact up to tick 4999").says("the last tick has no state");
+}
+
+#[test]
 fn two_swapped_states_are_found() {
     let log = forged("swapped-states", |log| {
         let places = log.places(STATE);
@@ -402,6 +412,42 @@ fn what_is_no_flight_is_refused_in_one_line() {
         tiltrotor(&["log", "info", text(&path)]).refused().says(why);
         tiltrotor(&["replay", text(&path)]).refused().says(why);
     }
+}
+
+#[test]
+fn no_number_in_a_log_makes_the_program_panic() {
+    let place = folder("refly-extremes");
+    let whole = Forgery::of(short_flight());
+    // The largest whole number, which is a NaN as well; the least, which is −0.0; the largest ones with a sign.
+    let bits = [u64::MAX, i64::MIN.cast_unsigned(), i64::MAX.cast_unsigned(), f64::MAX.to_bits()];
+    let channels =
+        [(HARDWARE, 3), (INPUTS, 100), (STATE, 0), (STATE, 100), (TIMING, 5), (EVENTS, 1)];
+    let cases = channels.into_iter().flat_map(|channel| bits.map(|bits| (channel, bits)));
+    all(cases, |((topic, number), bits)| {
+        let fields = (whole.clone().bytes(topic, number).len() - cdr::HEADER.len()) / 8;
+        // All fields at once, and some alone.
+        let alone = (0..fields).filter(|field| *field < 8 || *field + 3 > fields).map(Some);
+        for field in alone.chain([None]) {
+            let mut log = whole.clone();
+            for field in field.map_or(0..fields, |field| field..field + 1) {
+                let at = cdr::HEADER.len() + 8 * field;
+                log.bytes(topic, number)[at..at + 8].copy_from_slice(&bits.to_le_bytes());
+            }
+            if log.messages == whole.messages {
+                // It was that already.
+                continue;
+            }
+            let file = place.join(format!("{}-{number}-{field:?}-{bits:x}.mcap", &topic[1..]));
+            log.write(&file);
+            // None of these panics: that is looked at wherever the command is run.
+            let said = verify(&file);
+            tiltrotor(&["log", "info", text(&file)]);
+            if [HARDWARE, INPUTS, STATE].contains(&topic) && said.status == Some(OK) {
+                return Some(format!("{topic} {number}, field {field:?}, {bits:x}: {said}"));
+            }
+        }
+        None
+    });
 }
 
 #[test]

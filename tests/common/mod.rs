@@ -175,6 +175,22 @@ pub struct Forgery {
     pub messages: Vec<Message<'static>>,
 }
 
+impl Clone for Forgery {
+    fn clone(&self) -> Self {
+        let attachment = |file: &Attachment<'static>| Attachment {
+            name: file.name.clone(),
+            media_type: file.media_type.clone(),
+            data: file.data.clone(),
+            ..*file
+        };
+        Self {
+            metadata: self.metadata.clone(),
+            attachments: self.attachments.iter().map(attachment).collect(),
+            messages: self.messages.clone(),
+        }
+    }
+}
+
 impl Forgery {
     /// Takes a log apart.
     #[track_caller]
