@@ -6,8 +6,11 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use engine::STEP_S;
 use flightgear::Link;
+use logs::Ending;
 use recorder::Pace;
 use replay::Reflight;
+
+use crate::report;
 
 /// What to refly, and where to show it.
 #[derive(clap::Args)]
@@ -46,5 +49,15 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         link.destination(),
         link.dropped()
     );
-    Ok(ExitCode::SUCCESS)
+    match flight.ending() {
+        Ending::Closed => Ok(ExitCode::SUCCESS),
+        Ending::Truncated => {
+            let log = args.log.display();
+            complain!("tiltrotor: {log}: it ends there without having been closed");
+            Ok(ExitCode::from(report::NEVER_CLOSED))
+        }
+        Ending::Damaged(why) => {
+            bail!("{}: the file is damaged after that: {why}", args.log.display())
+        }
+    }
 }

@@ -253,16 +253,16 @@ fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
         ButtonControl::NacelleAft => hold_nacelles(controls, 1.0, pressed),
         _ if !pressed => {}
         ButtonControl::FlapDown => {
-            controls.flap_detent = (controls.flap_detent + 1).min(FLAP_DETENT_LAST);
+            controls.flap_detent = controls.flap_detent.wrapping_add(1).min(FLAP_DETENT_LAST);
         }
         ButtonControl::FlapUp => controls.flap_detent = controls.flap_detent.saturating_sub(1),
         ButtonControl::GearToggle => controls.gear_down ^= 1,
         ButtonControl::ParkingBrakeToggle => controls.parking_brake ^= 1,
         ButtonControl::ScasToggle => controls.scas_on ^= 1,
         ButtonControl::RpmSelect => {
-            controls.rpm_select = (controls.rpm_select + 1) % (RPM_SELECT_LAST + 1);
+            controls.rpm_select = controls.rpm_select.wrapping_add(1) % (RPM_SELECT_LAST + 1);
         }
-        ButtonControl::Marker => controls.markers += 1,
+        ButtonControl::Marker => controls.markers = controls.markers.wrapping_add(1),
     }
 }
 

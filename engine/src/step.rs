@@ -25,7 +25,7 @@ use crate::{
 /// Advances the aircraft by one tick. Same arguments, same bits.
 pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
     let pilot = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
-    let held = State { tick: state.tick + 1, cockpit: pilot, ..*state };
+    let held = State { tick: state.tick.wrapping_add(1), cockpit: pilot, ..*state };
 
     // Sampled once, held through the tick.
     let sensed = sense(state, &inputs.world);

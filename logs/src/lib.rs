@@ -69,13 +69,30 @@ pub enum LogError {
     Decode(String),
     /// MCAP's own errors.
     #[error("log file: {0}")]
-    Mcap(#[from] mcap::McapError),
+    Mcap(mcap::McapError),
     /// Reading or writing.
     #[error("log file: {0}")]
-    Io(#[from] io::Error),
+    Io(io::Error),
     /// A type that is not recordable.
     #[error(transparent)]
     Fields(#[from] fields::NotRecordable),
+}
+
+// By hand: what is said in full is not to be said again as the source.
+impl From<io::Error> for LogError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl From<mcap::McapError> for LogError {
+    fn from(error: mcap::McapError) -> Self {
+        match error {
+            // MCAP's own words hide the system's: a full disk is to be called one.
+            mcap::McapError::Io(error) => Self::Io(error),
+            error => Self::Mcap(error),
+        }
+    }
 }
 
 impl LogError {

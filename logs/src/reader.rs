@@ -147,7 +147,12 @@ impl FlightReader {
     pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
         loop {
             let Some(item) = self.records.next() else {
-                self.ending = Some(self.records.ending());
+                let ending = self.records.ending();
+                let begun = self.pending.inputs.is_some() || !self.pending.events.is_empty();
+                if ending == Ending::Closed && begun {
+                    return Err(LogError::Order("the last tick has no state".into()));
+                }
+                self.ending = Some(ending);
                 return Ok(None);
             };
             let Item::Message(topic, _, data) = item else { continue };
@@ -162,7 +167,7 @@ impl FlightReader {
                     if self.pending.inputs.replace(inputs).is_some() {
                         return Err(LogError::Order(format!(
                             "two inputs before the state of tick {}",
-                            inputs.tick + 1
+                            inputs.tick.saturating_add(1)
                         )));
                     }
                 }

@@ -133,7 +133,8 @@ impl fmt::Display for EventRecord {
             Some(Happening::WeightOnWheels) if value == 0 => write!(f, "lift-off"),
             Some(Happening::WeightOnWheels) => write!(f, "touchdown"),
             Some(Happening::Landed) if value == 0 => write!(f, "end of the flight"),
-            Some(Happening::Landed) => write!(f, "ended by the crew"),
+            Some(Happening::Landed) if value == 1 => write!(f, "ended by the crew"),
+            Some(Happening::Landed) => write!(f, "ended by a signal"),
             Some(Happening::Phase) => write!(f, "pilot model's phase {value}"),
             None => write!(f, "event of an unknown kind {}, value {value}", self.kind),
         }

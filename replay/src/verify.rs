@@ -231,8 +231,8 @@ impl fmt::Display for Divergence {
                     input.device,
                     input.code,
                     input.value,
-                    input.tick + 1,
-                    (input.tick + 1) as f64 * STEP_S
+                    input.tick.saturating_add(1),
+                    input.tick.saturating_add(1) as f64 * STEP_S
                 )
             }
         }
