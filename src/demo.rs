@@ -18,6 +18,12 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common)?;
+    #[cfg(feature = "rerun")]
+    let saved = out.with_extension("rrd");
+    #[cfg(feature = "rerun")]
+    if saved.exists() && !args.common.force {
+        anyhow::bail!("{} exists; overwrite it with --force", saved.display());
+    }
     let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP)?;
     plan.set_pilot("demo", &map)?;
     plan.set_map(map)?;
@@ -35,7 +41,6 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let status = verify::verify_one(out);
     #[cfg(feature = "rerun")]
     {
-        let saved = out.with_extension("rrd");
         let bytes = crate::view::save(out, &saved)?;
         say!("{}: {:.1} MB, for `rerun {0}`", saved.display(), bytes as f64 * 1e-6);
     }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use flightgear::Link;
 use logs::Ending;
@@ -30,15 +30,23 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
-    let mut flight = Reflight::open(&args.log)?;
+    let mut flight = Reflight::open(&args.log).with_context(|| args.log.display().to_string())?;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);
     let mut ticks = 0;
+    let mut first_difference = None;
     while let Some(reflown) = flight.next_tick()? {
         pace.wait(ticks);
         link.send(&reflown.outputs);
         flight.reader.timings.clear();
         ticks += 1;
+        if !reflown.exact && first_difference.is_none() {
+            first_difference = Some(ticks);
+            complain!(
+                "tiltrotor: from {:.3} s on this is not the recorded flight; `tiltrotor verify` says more",
+                ticks as f64 * STEP_S
+            );
+        }
     }
     say!(
         "{}: {:.1} s reflown at {} times real time, {} packets sent to {}, {} not",
@@ -50,6 +58,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         link.dropped()
     );
     match flight.ending() {
+        Ending::Closed if first_difference.is_some() => Ok(ExitCode::from(report::DIVERGED)),
         Ending::Closed => Ok(ExitCode::SUCCESS),
         Ending::Truncated => {
             let log = args.log.display();

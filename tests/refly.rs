@@ -267,6 +267,15 @@ fn a_missing_tick_is_named() {
 }
 
 #[test]
+fn a_log_whose_end_was_taken_off_and_closed_again_is_not_whole() {
+    let log = forged("shortened", |log| {
+        let place = log.places(INPUTS)[4900];
+        log.messages.truncate(place);
+    });
+    verify(&log).ends(NEVER_CLOSED).says("exact up to tick 4900");
+}
+
+#[test]
 fn a_closed_log_that_ends_in_the_middle_of_a_tick_is_not_accepted() {
     let log = forged("half-tick", |log| {
         let place = *log.places(STATE).last().expect("a state");

@@ -47,8 +47,8 @@ impl WorldStart {
     /// As the step takes it.
     pub fn world(&self) -> World {
         let wind_mps: Vec3<Ned> = Vec3::new(
-            -self.wind_mps * crate::math::cos(self.wind_from_rad),
-            -self.wind_mps * crate::math::sin(self.wind_from_rad),
+            0.0 - self.wind_mps * crate::math::cos(self.wind_from_rad),
+            0.0 - self.wind_mps * crate::math::sin(self.wind_from_rad),
             0.0,
         );
         World {

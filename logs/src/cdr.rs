@@ -47,7 +47,7 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, LogError> {
         .strip_prefix(&HEADER)
         .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
     let (value, used) = bincode::serde::decode_from_slice(body, FIXED)
-        .map_err(|error| LogError::Decode(error.to_string()))?;
+        .map_err(|_| LogError::Decode(format!("too short, with {} bytes", bytes.len())))?;
     if used == body.len() {
         Ok(value)
     } else {

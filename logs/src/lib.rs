@@ -24,13 +24,8 @@ pub use writer::{Closed, FlightWriter};
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
     /// The file cannot be opened.
-    #[error("cannot read {path}: {error}")]
-    Open {
-        /// Which.
-        path: String,
-        /// Why.
-        error: io::Error,
-    },
+    #[error("cannot be read: {0}")]
+    Open(io::Error),
     /// The file cannot be made.
     #[error("cannot write {path}: {error}")]
     Create {
@@ -96,10 +91,6 @@ impl From<mcap::McapError> for LogError {
 }
 
 impl LogError {
-    fn open(path: &Path, error: io::Error) -> Self {
-        Self::Open { path: path.display().to_string(), error }
-    }
-
     fn create(path: &Path, error: io::Error) -> Self {
         let path = path.display().to_string();
         if error.kind() == io::ErrorKind::AlreadyExists {
