@@ -65,8 +65,18 @@ pub mod failures {
 /// The world around the aircraft during one tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct World {
-    /// Motion of the air, m/s.
+    /// Steady motion of the air, m/s; at 20 ft when there is shear.
     pub wind_mps: Vec3<Ned>,
+    /// Roughness length of the ground, m; 0 for the same wind at every height.
+    pub wind_roughness_m: f64,
+    /// Amplitude of a discrete gust, m/s.
+    pub gust_mps: Vec3<Ned>,
+    /// Its duration, s.
+    pub gust_s: f64,
+    /// When it begins.
+    pub gust_start_tick: u64,
+    /// Intensity of the vertical turbulence, m/s; 0 for still air.
+    pub turbulence_mps: f64,
     /// Ground under the aircraft, above the origin's ground, m.
     pub ground_height_m: f64,
     /// Warmer than the standard atmosphere by, K.
@@ -87,12 +97,12 @@ impl World {
 
     /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
-        let Self {
-            wind_mps: wind, ground_height_m, temperature_offset_k, pressure_offset_pa, ..
-        } = self;
-        [wind.x, wind.y, wind.z, *ground_height_m, *temperature_offset_k, *pressure_offset_pa]
-            .iter()
-            .all(|value| value.is_finite())
+        let (wind, gust) = (self.wind_mps, self.gust_mps);
+        [wind.x, wind.y, wind.z, gust.x, gust.y, gust.z]
+            .into_iter()
+            .chain([self.wind_roughness_m, self.gust_s, self.turbulence_mps])
+            .chain([self.ground_height_m, self.temperature_offset_k, self.pressure_offset_pa])
+            .all(f64::is_finite)
     }
 }
 

@@ -15,6 +15,8 @@
 //! - **KH**: Kleinhesselink, *Stability and Control Modeling of Tiltrotor Aircraft*, University of
 //!   Maryland, 2007. A low-order airframe model.
 //! - **ISO2533**: *Standard Atmosphere*, 1975.
+//! - **MIL8785**: MIL-F-8785C, *Flying Qualities of Piloted Airplanes*, 1980, section 3.7: wind shear,
+//!   discrete gusts, Dryden turbulence.
 //! - **PETERS**: Pitt and Peters, *Theoretical Prediction of Dynamic-Inflow Derivatives*, Vertica 5,
 //!   1981. Apparent mass of the inflow.
 //! - **CHEESEMAN**: Cheeseman and Bennett, *The Effect of the Ground on a Helicopter Rotor in Forward

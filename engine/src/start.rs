@@ -6,7 +6,7 @@ use crate::frames::{Attitude, Euler, Ned, Vec3};
 use crate::inputs::{Inputs, World};
 use crate::pair::Pair;
 use crate::state::{Geodetic, Plant, State};
-use crate::{Aircraft, GRAVITY_MPS2, cockpit, fcc, rotors, step};
+use crate::{Aircraft, GRAVITY_MPS2, cockpit, environment, fcc, rotors, step};
 
 /// How long the aircraft settles on its wheels before the flight, in ticks.
 ///
@@ -37,6 +37,15 @@ pub struct WorldStart {
     pub wind_mps: f64,
     /// Where it comes from, clockwise from north.
     pub wind_from_rad: f64,
+    /// Roughness length of the ground; 0 for the same wind at every height.
+    #[serde(default)]
+    pub wind_roughness_m: f64,
+    /// Intensity of the vertical turbulence; 0 for still air.
+    #[serde(default)]
+    pub turbulence_mps: f64,
+    /// Seed of the turbulence.
+    #[serde(default)]
+    pub turbulence_seed: u64,
     /// Warmer than standard by, K.
     pub temperature_offset_k: f64,
     /// Sea-level pressure above standard by, Pa.
@@ -53,6 +62,8 @@ impl WorldStart {
         );
         World {
             wind_mps,
+            wind_roughness_m: self.wind_roughness_m,
+            turbulence_mps: self.turbulence_mps,
             temperature_offset_k: self.temperature_offset_k,
             pressure_offset_pa: self.pressure_offset_pa,
             ..World::default()
@@ -86,6 +97,10 @@ impl Start {
                 },
                 ..fcc::State::default()
             },
+            environment: environment::State {
+                noise: self.world.turbulence_seed,
+                ..environment::State::default()
+            },
             plant: Plant {
                 origin: self.origin,
                 position_m: Vec3::new(0.0, 0.0, -height_m),
@@ -103,7 +118,8 @@ impl Start {
         state.actuators.gear_extension_norm = 1.0;
         state.actuators.collective_rad = Pair::both(collective_rad);
         state.actuators.flap_rad = aircraft.fcc.mixer.flap_rad[state.cockpit.flap_detent as usize];
-        let world = self.world.world();
+        // It settles in still air: what it settles to does not depend on the seed.
+        let world = World { turbulence_mps: 0.0, ..self.world.world() };
         for _ in 0..SETTLING_TICKS {
             (state, _) = step(aircraft, &state, &Inputs { events: &[], world });
         }

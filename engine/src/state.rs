@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::frames::{Attitude, Body, Ned, Vec3};
 use crate::landing_gear::{Struts, Tread};
 use crate::pair::Pair;
-use crate::{actuators, cockpit, engines, eom, fcc, rotors};
+use crate::{actuators, cockpit, engines, environment, eom, fcc, rotors};
 
 /// The whole state. No pointers, no NaN, no −0.0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,6 +20,8 @@ pub struct State {
     pub fcc: fcc::State,
     /// Actuators.
     pub actuators: actuators::State,
+    /// Turbulence.
+    pub environment: environment::State,
     /// Motion, rotors, engines, gear.
     pub plant: Plant,
     /// How fast the plant changed in the tick before, for the integration.
@@ -130,7 +132,7 @@ impl<T: Numbers> Numbers for Struts<T> {
 }
 
 numbers! {
-    State { tick, frozen, cockpit, fcc, actuators, plant, rate }
+    State { tick, frozen, cockpit, fcc, actuators, environment, plant, rate }
     cockpit::State {
         stick_aft_norm, stick_right_norm, collective_norm, pedal_right_norm, brake_norm,
         nacelle_aft_norm, flap_detent, gear_down, parking_brake, scas_on, rpm_select, markers,
@@ -143,6 +145,9 @@ numbers! {
     actuators::State {
         collective_rad, cyclic_forward_rad, elevator_rad, flaperon_rad, rudder_right_rad, flap_rad,
         mast_tilt_rad, mast_tilt_rate_radps, gear_extension_norm, lever_norm, brake_norm,
+    }
+    environment::State {
+        noise, mirrored, turbulence_mps, lateral_stage_mps, vertical_stage_mps,
     }
     Plant {
         origin, position_m, velocity_mps, attitude, angular_rate_radps, rotors, rotor_speed_radps,

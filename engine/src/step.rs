@@ -28,19 +28,20 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
     let held = State { tick: state.tick.wrapping_add(1), cockpit: pilot, ..*state };
 
     // Sampled once, held through the tick.
-    let sensed = sense(state, &inputs.world);
+    let (environment, air) = weather(state, &inputs.world);
+    let sensed = sense(state, &air);
     let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &pilot, &sensed, &inputs.world);
     if inputs.world.paused != 0 || state.frozen != 0 {
         // What the computer asks for stays to be seen; what it remembers does not move. The rates
         // of the tick before the pause stay too, so that the motion goes on as if there were none.
-        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world);
+        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world, &air);
         return (held, Outputs { commands, ..blocks.outputs(&held) });
     }
     let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
-    let sampled = State { fcc, actuators, ..held };
+    let sampled = State { fcc, actuators, environment, ..held };
 
     // Integrated across the tick.
-    let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world);
+    let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world, &air);
     let plant = advance(&sampled.plant, &blocks.rate, &state.rate, &blocks.gear);
     let plant = above_ground(aircraft, plant, &inputs.world);
     let next = State { plant, rate: blocks.rate, ..sampled }.without_negative_zeros();
@@ -49,11 +50,31 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
     (next, outputs)
 }
 
-/// What the flight control computer's sensors read. Ideal: no lag, no noise.
-fn sense(state: &State, world: &World) -> fcc::Sensed {
+/// The air of this tick.
+fn weather(state: &State, world: &World) -> (environment::State, environment::Outputs) {
     let plant = &state.plant;
-    let airspeed_mps = (plant.velocity_mps - world.wind_mps).norm();
-    let air = air(plant, world);
+    environment::environment(
+        &state.environment,
+        &environment::Inputs {
+            height_m: plant.origin.height_m - plant.position_m.z,
+            height_above_ground_m: -plant.position_m.z - world.ground_height_m,
+            airspeed_mps: (plant.velocity_mps - world.wind_mps).norm(),
+            tick: state.tick,
+            world,
+        },
+    )
+}
+
+/// Velocity through the air, body axes.
+fn airspeed(plant: &Plant, air: &environment::Outputs) -> Vec3<Body> {
+    plant.attitude.ned_from_body().inverse() * (plant.velocity_mps - air.wind_mps)
+        - air.turbulence_mps
+}
+
+/// What the flight control computer's sensors read. Ideal: no lag, no noise.
+fn sense(state: &State, air: &environment::Outputs) -> fcc::Sensed {
+    let plant = &state.plant;
+    let airspeed_mps = airspeed(plant, air).norm();
     let euler = plant.attitude.euler();
     // Exactly upside down neither way round is the shorter: taking one would break the symmetry.
     let half_turn = euler.roll_rad.abs() >= PI;
@@ -67,14 +88,6 @@ fn sense(state: &State, world: &World) -> fcc::Sensed {
         mast_tilt_rad: state.actuators.mast_tilt_rad.mean(),
         weight_on_wheels: plant.weight_on_wheels != 0,
     }
-}
-
-fn air(plant: &Plant, world: &World) -> environment::Outputs {
-    environment::air(&environment::Inputs {
-        height_m: plant.origin.height_m - plant.position_m.z,
-        temperature_offset_k: world.temperature_offset_k,
-        pressure_offset_pa: world.pressure_offset_pa,
-    })
 }
 
 /// The plant one tick later.
@@ -156,12 +169,16 @@ struct Blocks {
 }
 
 impl Blocks {
-    fn evaluate(aircraft: &Aircraft, state: &State, world: &World) -> Self {
+    fn evaluate(
+        aircraft: &Aircraft,
+        state: &State,
+        world: &World,
+        air: &environment::Outputs,
+    ) -> Self {
         let plant = &state.plant;
         let surfaces = &state.actuators;
         let ned_from_body = plant.attitude.ned_from_body();
 
-        let air = air(plant, world);
         let balance = weight_balance::balance(
             &aircraft.weight_balance,
             plant.fuel_kg,
@@ -169,7 +186,7 @@ impl Blocks {
         );
         let motion = Motion {
             cg_m: balance.cg_m,
-            airspeed_mps: ned_from_body.inverse() * (plant.velocity_mps - world.wind_mps),
+            airspeed_mps: airspeed(plant, air),
             angular_rate_radps: plant.angular_rate_radps,
             density_kg_per_m3: air.density_kg_per_m3,
         };
@@ -244,7 +261,7 @@ impl Blocks {
         Self {
             ground_height_m: world.ground_height_m,
             hull_height_m: aircraft.landing_gear.hull_height_m,
-            air,
+            air: *air,
             motion,
             balance,
             rotors,

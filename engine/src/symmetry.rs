@@ -7,7 +7,7 @@ use crate::inputs::{World, failures};
 use crate::landing_gear::{Struts, Tread};
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
-use crate::{actuators, cockpit, engines, eom, fcc};
+use crate::{actuators, cockpit, engines, environment, eom, fcc};
 
 /// Has a mirror image in the plane of symmetry.
 pub trait Mirror {
@@ -22,6 +22,7 @@ impl Mirror for State {
             cockpit: self.cockpit.mirrored(),
             fcc: self.fcc.mirrored(),
             actuators: self.actuators.mirrored(),
+            environment: self.environment.mirrored(),
             plant: self.plant.mirrored(),
             rate: self.rate.mirrored(),
             ..*self
@@ -65,6 +66,17 @@ impl Mirror for actuators::State {
             mast_tilt_rad: self.mast_tilt_rad.swapped(),
             mast_tilt_rate_radps: self.mast_tilt_rate_radps.swapped(),
             brake_norm: self.brake_norm.swapped(),
+            ..*self
+        }
+    }
+}
+
+impl Mirror for environment::State {
+    fn mirrored(&self) -> Self {
+        Self {
+            mirrored: 1 - self.mirrored,
+            turbulence_mps: self.turbulence_mps.mirrored(),
+            lateral_stage_mps: -self.lateral_stage_mps,
             ..*self
         }
     }
@@ -117,6 +129,7 @@ impl Mirror for World {
         let engines = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
         Self {
             wind_mps: self.wind_mps.mirrored(),
+            gust_mps: self.gust_mps.mirrored(),
             failures: (self.failures & !engines)
                 | moved(failures::ENGINE_LEFT, failures::ENGINE_RIGHT)
                 | moved(failures::ENGINE_RIGHT, failures::ENGINE_LEFT),

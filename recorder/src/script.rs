@@ -14,6 +14,8 @@
 //! fail = ["engine_left"]
 //! mend = []
 //! wind = { from_deg = 270.0, kt = 15.0 }
+//! gust = { up_mps = 6.0, s = 2.0 }          # north_mps, east_mps, up_mps; 1 - cosine
+//! turbulence_mps = 1.5                      # vertical intensity
 //! end = false                # true ends the flight
 //! ```
 
@@ -97,6 +99,18 @@ struct Wind {
     kt: f64,
 }
 
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Gust {
+    #[serde(default)]
+    north_mps: f64,
+    #[serde(default)]
+    east_mps: f64,
+    #[serde(default)]
+    up_mps: f64,
+    s: f64,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Event {
@@ -116,6 +130,8 @@ struct Event {
     #[serde(default)]
     mend: Vec<Failure>,
     wind: Option<Wind>,
+    gust: Option<Gust>,
+    turbulence_mps: Option<f64>,
     pause: Option<bool>,
     #[serde(default)]
     end: bool,
@@ -195,6 +211,14 @@ impl Script {
             let (from_rad, mps) = (from_deg * PI / 180.0, kt * 1852.0 / 3600.0);
             reach.world.wind_mps = Vec3::new(-mps * cos(from_rad), -mps * sin(from_rad), 0.0);
         }
+        if let Some(gust) = event.gust {
+            reach.world.gust_mps = Vec3::new(gust.north_mps, gust.east_mps, -gust.up_mps);
+            reach.world.gust_s = gust.s;
+            reach.world.gust_start_tick = reach.tick;
+        }
+        if let Some(turbulence_mps) = event.turbulence_mps {
+            reach.world.turbulence_mps = turbulence_mps;
+        }
         if let Some(pause) = event.pause {
             reach.world.paused = u64::from(pause);
         }
@@ -216,6 +240,17 @@ fn check(event: &Event) -> Result<Vec<(AxisControl, f64)>, String> {
         && !(wind.from_deg.is_finite() && (0.0..=200.0).contains(&wind.kt))
     {
         return Err(format!("wind: expected 0 to 200 kt, got {} kt", wind.kt));
+    }
+    if let Some(gust) = event.gust
+        && !([gust.north_mps, gust.east_mps, gust.up_mps].iter().all(|v| v.abs() <= 50.0)
+            && (0.01..=60.0).contains(&gust.s))
+    {
+        return Err("gust: expected up to 50 m/s each way, for 0.01 to 60 s".into());
+    }
+    if let Some(turbulence_mps) = event.turbulence_mps
+        && !(0.0..=15.0).contains(&turbulence_mps)
+    {
+        return Err(format!("turbulence_mps: expected 0 to 15 m/s, got {turbulence_mps}"));
     }
     event
         .axis
