@@ -216,7 +216,8 @@ const WING_TOLERANCE: f64 = 0.01;
 
 /// Z and M miss at 40 to 80 kt by the lift that the rotors add there (K_FW, K_RW), whose equation is
 /// not at hand: 200, 297 and 189 lb, which is .37, .36 and .28 of the table's lift. M misses by 1.7 %
-/// at 100 kt, where the printed moment asks for a Cm of −.111 and the table has −.110.
+/// at 100 kt, where the printed moment asks for a Cm of −.111 and the table has −.110. At 40 kt the area
+/// law besides takes 35 ft² out of the free stream, where the printout has all of it there.
 #[test]
 fn val_wing_in_free_stream_has_the_loads_of_the_trim_printouts() {
     let published = [
@@ -225,15 +226,9 @@ fn val_wing_in_free_stream_has_the_loads_of_the_trim_printouts() {
         [-1154.732, -676.317, -322.313],
         [-1523.955, 368.162, -2026.303],
     ];
-    let missed = misses("wing", published, all(whole_free_wing), WING_TOLERANCE);
-    println!("{missed:?}");
-    assert!(!missed.contains(&"X 100".into()) && !missed.contains(&"Z 100".into()));
-    assert!(missed.contains(&"Z 40".into()) && missed.contains(&"M 100".into()));
-}
-
-/// The free stream's load as if nothing of the wing were immersed, as in the printouts.
-fn whole_free_wing(loads: &Loads) -> Load {
-    loads.free_wing
+    let missed = misses("wing", published, all(|loads| loads.free_wing), WING_TOLERANCE);
+    let known = ["X 40", "Z 40", "M 40", "X 60", "Z 60", "M 60", "X 80", "Z 80", "M 80", "M 100"];
+    assert_eq!(missed, known);
 }
 
 /// The printouts have no immersed area from 40 kt on; the area law taken has 17.6 ft² a side at 40 kt.

@@ -318,7 +318,7 @@ fn the_mirrored_aircraft_has_the_mirrored_loads_to_the_bit() {
         let state = dice.state().without_negative_zeros();
         let (next, out) = stepped(&xv15, &state, World::default());
         let (mirror_next, mirror_out) = stepped(&xv15, &state.mirrored(), World::default());
-        let mut exchanged = airframe(&mirror_out).map(|load| load.mirrored());
+        let mut exchanged = airframe(&mirror_out).map(Load::mirrored);
         exchanged.swap(2, 3);
         exchanged.swap(4, 5);
         for (load, mirrored) in airframe(&out).into_iter().zip(exchanged) {
