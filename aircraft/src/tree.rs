@@ -110,7 +110,7 @@ impl Lines {
     }
 }
 
-/// The engine's tables: (key, arguments), in SI.
+/// The engine's tables: (key, arguments), in SI. A key that two blocks have counts with either's.
 const TABLES: &[(&str, &[&str])] = &[
     ("collective_per_lever_rad_per_m", &["mast_tilt_rad"]),
     ("collective_per_lateral_stick_rad_per_m", &["mast_tilt_rad"]),
@@ -119,6 +119,52 @@ const TABLES: &[(&str, &[&str])] = &[
     ("collective_rad_min", &["mast_tilt_rad"]),
     ("nacelle_radps", &["mast_tilt_rad"]),
     ("power_by_lever_norm", &["lever_norm"]),
+    // Rotor wake.
+    ("tail_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
+    ("sideslip_factor", &["beta_rad", "mast_tilt_rad"]),
+    // Wing and pylons.
+    ("flap_0", &["alpha_rad"]),
+    ("flap_20", &["alpha_rad"]),
+    ("flap_40", &["alpha_rad"]),
+    ("flap_75", &["alpha_rad"]),
+    ("mach_0_4", &["alpha_rad"]),
+    ("mach_0_5", &["alpha_rad"]),
+    ("mach_0_6", &["alpha_rad"]),
+    ("pitching_moment", &["mast_tilt_rad", "flap_rad"]),
+    ("drag_at_no_lift", &["mast_tilt_rad", "flap_rad"]),
+    ("rolling_by_sideslip_per_rad", &["mast_tilt_rad", "flap_rad"]),
+    ("rolling_by_sideslip_and_lift_per_rad", &["mast_tilt_rad", "flap_rad"]),
+    ("flaperon_factor", &["mast_tilt_rad", "flap_rad"]),
+    ("lift_loss_by_flaperon_per_rad", &["flap_rad"]),
+    ("yawing_by_flaperon_per_rad", &["mast_tilt_rad", "flap_rad"]),
+    ("yawing_by_flaperon_and_lift", &["mast_tilt_rad", "flap_rad"]),
+    ("interference_m2", &["mast_tilt_rad"]),
+    ("platform_factor", &["angle_rad"]),
+    // Fuselage.
+    ("lift_m2", &["alpha_rad"]),
+    ("drag_m2", &["alpha_rad"]),
+    ("pitching_m3", &["alpha_rad"]),
+    ("lift_by_sideslip_m2", &["beta_rad"]),
+    ("drag_by_sideslip_m2", &["beta_rad"]),
+    ("pitching_by_sideslip_m3", &["beta_rad"]),
+    ("side_m2", &["beta_rad"]),
+    ("rolling_m3", &["beta_rad"]),
+    ("yawing_m3", &["beta_rad"]),
+    // Stabilisers.
+    ("elevator_by_mach", &["mach"]),
+    ("lift", &["alpha_rad", "elevator_rad"]),
+    ("drag", &["alpha_rad"]),
+    ("sideslip_factor", &["beta_rad"]),
+    ("downwash_rad", &["mast_tilt_rad", "alpha_rad", "flap_rad"]),
+    ("pressure_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
+    ("side_force", &["beta_rad", "rudder_rad"]),
+    ("drag", &["beta_rad"]),
+    ("mach_0_4", &["beta_rad"]),
+    ("mach_0_5", &["beta_rad"]),
+    ("mach_0_6", &["beta_rad"]),
+    ("rudder_by_mach", &["mach"]),
+    ("rotor_sidewash", &["airspeed_mps", "beta_rad"]),
+    ("fuselage_sidewash", &["alpha_rad", "beta_rad"]),
 ];
 
 /// What accompanies a sourced number's value.
@@ -249,8 +295,11 @@ impl Walk<'_> {
         value: Value,
         arguments: Vec<(String, Node)>,
     ) -> Result<Value, ConfigError> {
-        let expected = TABLES.iter().find(|(name, _)| *name == si_name).map(|(_, names)| *names);
-        let Some(expected) = expected else {
+        let mut kinds = TABLES.iter().filter(|(name, _)| *name == si_name).map(|(_, names)| *names);
+        let given = |expected: &&[&str]| {
+            arguments.iter().map(|(name, _)| name.as_str()).eq(expected.iter().copied())
+        };
+        let Some(expected) = kinds.clone().find(given).or_else(|| kinds.next()) else {
             return match arguments.into_iter().next() {
                 None => Ok(value),
                 Some((_, extra)) => {
@@ -259,7 +308,7 @@ impl Walk<'_> {
                 }
             };
         };
-        if !arguments.iter().map(|(name, _)| name.as_str()).eq(expected.iter().copied()) {
+        if !given(&expected) {
             let problem = Problem::Arguments {
                 expected: expected.iter().map(|&name| name.to_owned()).collect(),
                 found: arguments.into_iter().map(|(name, _)| name).collect(),
@@ -268,7 +317,7 @@ impl Walk<'_> {
         }
         let node = Node { key: format!("{}.value", entry.path), line: entry.line, value };
         let nodes = arguments.into_iter().map(|(_, node)| node).chain([node]);
-        let names = ["x", "y", "z"].map(str::to_owned);
+        let names = ["x", "y", "z", "w"].map(str::to_owned);
         Ok(Value::Table(names.into_iter().zip(nodes).collect()))
     }
 

@@ -43,6 +43,7 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("lbf_s_per_ft", "n_s_per_m", LBF / FT),
     ("ft_lbf_per_deg", "n_m_per_rad", FT * LBF / DEG),
     ("per_deg", "per_rad", 1.0 / DEG),
+    ("per_deg2", "per_rad2", 1.0 / (DEG * DEG)),
     ("ft2_per_deg", "m2_per_rad", FT * FT / DEG),
     ("ft2_per_rad", "m2_per_rad", FT * FT),
     ("ft3_per_deg", "m3_per_rad", FT * FT * FT / DEG),

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::aero::{fuselage, horizontal_stabilizer, vertical_stabilizers, wing_pylon};
+use crate::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
 use crate::{actuators, cockpit, engines, fcc, landing_gear, rotors, weight_balance};
 
 /// All that a tilt-rotor is. Another tilt-rotor is other numbers, not another program.
@@ -22,6 +22,8 @@ pub struct Aircraft {
     pub weight_balance: weight_balance::Params,
     /// Both rotors.
     pub rotors: rotors::Params,
+    /// The rotors' wake at the airframe.
+    pub rotor_wake: rotor_wake::Params,
     /// Wing and pylons.
     pub wing_pylon: wing_pylon::Params,
     /// Fuselage.
@@ -55,6 +57,13 @@ impl Aircraft {
             ("actuators.nacelle", self.actuators.nacelle_radps.fault()),
             ("engines.power_by_lever", self.engines.power_by_lever_norm.fault()),
         ];
-        tables.into_iter().find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+        tables
+            .into_iter()
+            .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+            .or_else(|| self.rotor_wake.fault())
+            .or_else(|| self.wing_pylon.fault())
+            .or_else(|| self.fuselage.fault())
+            .or_else(|| self.horizontal_stabilizer.fault())
+            .or_else(|| self.vertical_stabilizers.fault())
     }
 }

@@ -5,7 +5,7 @@
 //!   data. Taken: tables, gearing, structure, all through transcriptions by others, as the trust
 //!   labels in the aircraft file say. Doubted: single-source constants.
 //! - **CR537**: Ferguson, *Development and Validation of a Simulation for a Generic Tilt-Rotor
-//!   Aircraft*, NASA CR-166537, 1989. Trim printouts.
+//!   Aircraft*, NASA CR-166537, 1989. Trim printouts, with the loads of every component.
 //! - **TMX**: Maisel (ed.), *NASA/Army XV-15 Tilt Rotor Research Aircraft Familiarization Document*,
 //!   NASA TM X-62,407, 1975. Geometry, weights, limits. Its 1975 predictions are superseded by flight.
 //! - **TM812**: Dugan, Erhart, Schroers, *The XV-15 Tilt Rotor Research Aircraft*, NASA TM-81244,

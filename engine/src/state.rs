@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::aero::horizontal_stabilizer;
 use crate::frames::{Attitude, Body, Ned, Vec3};
 use crate::landing_gear::{Struts, Tread};
 use crate::pair::Pair;
@@ -43,6 +44,8 @@ pub struct Plant {
     pub angular_rate_radps: Vec3<Body>,
     /// Inflow and tip path of each rotor; the left one as its mirror image.
     pub rotors: Pair<rotors::State>,
+    /// Downwash on its way from the wing to the tail.
+    pub horizontal_stabilizer: horizontal_stabilizer::State,
     /// Ω of both rotors.
     pub rotor_speed_radps: f64,
     /// Azimuth of a right blade, 0..2π from aft; the left rotor's is its mirror image.
@@ -76,6 +79,8 @@ pub struct PlantRate {
     pub motion: eom::Rate,
     /// Of each rotor.
     pub rotors: Pair<rotors::Rate>,
+    /// Of the downwash at the tail.
+    pub horizontal_stabilizer: horizontal_stabilizer::Rate,
     /// Of rotor speed, power and fuel.
     pub engines: engines::Rate,
 }
@@ -150,17 +155,19 @@ numbers! {
         noise, mirrored, turbulence_mps, lateral_stage_mps, vertical_stage_mps,
     }
     Plant {
-        origin, position_m, velocity_mps, attitude, angular_rate_radps, rotors, rotor_speed_radps,
-        rotor_azimuth_rad, engines, fuel_kg, treads, weight_on_wheels,
+        origin, position_m, velocity_mps, attitude, angular_rate_radps, rotors,
+        horizontal_stabilizer, rotor_speed_radps, rotor_azimuth_rad, engines, fuel_kg, treads, weight_on_wheels,
     }
     Geodetic { latitude_rad, longitude_rad, height_m }
     Attitude { w, x, y, z }
     rotors::State { induced_mps, tilt_aft_rad, tilt_right_rad }
+    horizontal_stabilizer::State { downwash_rad }
     engines::State { power_w }
     Tread { forward_m, right_m }
-    PlantRate { motion, rotors, engines }
+    PlantRate { motion, rotors, horizontal_stabilizer, engines }
     eom::Rate { acceleration_mps2, angular_acceleration_radps2 }
     rotors::Rate { induced_mps2, tilt_aft_radps, tilt_right_radps }
+    horizontal_stabilizer::Rate { downwash_radps }
     engines::Rate { power_w_per_s, rotor_speed_radps2, fuel_kg_per_s }
 }
 

@@ -8,7 +8,9 @@
 //! # Assumptions
 //! Cockpit, computer, actuators and tyres are sampled: they move once a tick and hold through it.
 
-use crate::aero::{Motion, fuselage, horizontal_stabilizer, vertical_stabilizers, wing_pylon};
+use crate::aero::{
+    Motion, fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
+};
 use crate::frames::{Body, Euler, Load, Ned, Rotation, Vec3};
 use crate::inputs::World;
 use crate::landing_gear::{Struts, Tread};
@@ -108,6 +110,7 @@ fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear
                     + ab2(now.tilt_right_radps, before.tilt_right_radps),
             }
         });
+    let (tail, tail_before) = (&rate.horizontal_stabilizer, &rate_before.horizontal_stabilizer);
     let (drive, drive_before) = (&rate.engines, &rate_before.engines);
     let engines = plant.engines.zip(drive.power_w_per_s.zip(drive_before.power_w_per_s)).map(
         |(engine, (now, before))| engines::State { power_w: engine.power_w + ab2(now, before) },
@@ -126,6 +129,10 @@ fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear
             .turned_by((plant.angular_rate_radps + angular_rate_radps) * (0.5 * STEP_S)),
         angular_rate_radps,
         rotors,
+        horizontal_stabilizer: horizontal_stabilizer::State {
+            downwash_rad: plant.horizontal_stabilizer.downwash_rad
+                + ab2(tail.downwash_radps, tail_before.downwash_radps),
+        },
         rotor_speed_radps,
         rotor_azimuth_rad: if turned_rad >= TAU { turned_rad - TAU } else { turned_rad },
         engines,
@@ -226,18 +233,31 @@ impl Blocks {
                 brake_norm: surfaces.brake_norm,
             },
         );
+        let wake = wake(aircraft, state, motion, thrust_axes, rotors);
+        let mach = motion.airspeed_mps.norm() / air.sound_speed_mps;
+        let (stabilizer_rate, stabilizer_load) = horizontal_stabilizer::horizontal_stabilizer(
+            &aircraft.horizontal_stabilizer,
+            &plant.horizontal_stabilizer,
+            &horizontal_stabilizer::Inputs {
+                motion,
+                mach,
+                wing_alpha_rad: wake.wing_alpha_rad,
+                wake_mps: wake.tail_mps,
+                mast_tilt_rad: surfaces.mast_tilt_rad.mean(),
+                flap_rad: surfaces.flap_rad,
+                elevator_rad: surfaces.elevator_rad,
+            },
+        );
+        let half_wings = half_wings(aircraft, surfaces, motions, mach, thrust_axes, rotors, &wake);
         let loads = Loads {
             rotors: unmirrored(rotors.map(|rotor| rotor.load)),
-            wing_pylon: unmirrored(half_wings(aircraft, surfaces, motions, thrust_axes, rotors)),
+            wing_pylon: unmirrored(half_wings.map(|half| half.total())),
             fuselage: fuselage::fuselage(
                 &aircraft.fuselage,
                 &fuselage::Inputs { motion, gear_extension_norm: surfaces.gear_extension_norm },
             ),
-            horizontal_stabilizer: horizontal_stabilizer::horizontal_stabilizer(
-                &aircraft.horizontal_stabilizer,
-                &horizontal_stabilizer::Inputs { motion, elevator_rad: surfaces.elevator_rad },
-            ),
-            vertical_stabilizers: unmirrored(fins(aircraft, surfaces, motions)),
+            horizontal_stabilizer: stabilizer_load,
+            vertical_stabilizers: unmirrored(fins(aircraft, surfaces, motions, mach)),
             jets: unmirrored(engines.jet_thrust_n.zip(thrust_axes).map(|(thrust_n, axis)| {
                 engines::jet(thrust_n, axis, aircraft.rotors.pivot_m, balance.cg_m)
             })),
@@ -255,6 +275,7 @@ impl Blocks {
                 rotor_momentum_rate_n_m: spin.1,
             }),
             rotors: from_rotors.map(|(rate, _)| rate),
+            horizontal_stabilizer: stabilizer_rate,
             engines: engine_rate,
         };
         let gear = Gear { treads, legs };
@@ -377,36 +398,69 @@ fn rotors(
     )
 }
 
+/// The rotors' wake at the airframe.
+fn wake(
+    aircraft: &Aircraft,
+    state: &State,
+    motion: Motion,
+    thrust_axes: Pair<Vec3<Body>>,
+    rotors: Pair<rotors::Outputs>,
+) -> rotor_wake::Outputs {
+    let inputs = rotor_wake::Inputs {
+        motion,
+        mast_tilt_rad: state.actuators.mast_tilt_rad.mean(),
+        thrust_axes,
+        induced_mps: rotors.map(|rotor| rotor.induced_mps),
+        rotor_force_n: rotors.map(|rotor| rotor.load.force_n.norm()),
+        advance_ratio: rotors.map(|rotor| rotor.advance_ratio),
+        rotor_speed_radps: state.plant.rotor_speed_radps,
+        rotor_radius_m: aircraft.rotors.radius_m,
+    };
+    rotor_wake::rotor_wake(&aircraft.rotor_wake, &inputs)
+}
+
 /// Both half wings, each as a right one.
 fn half_wings(
     aircraft: &Aircraft,
     surfaces: &actuators::State,
     motions: Pair<Motion>,
+    mach: f64,
     thrust_axes: Pair<Vec3<Body>>,
     rotors: Pair<rotors::Outputs>,
-) -> Pair<Load> {
-    let wake = thrust_axes.zip(rotors.map(|rotor| rotor.induced_mps));
+    wake: &rotor_wake::Outputs,
+) -> Pair<wing_pylon::Outputs> {
+    let from_rotors = thrust_axes.zip(rotors.map(|rotor| rotor.induced_mps)).zip(wake.wing_mps);
     let controls = surfaces.mast_tilt_rad.zip(surfaces.flaperon_rad);
-    motions.zip(wake.zip(controls)).map(
-        |(motion, ((thrust_axis, induced_mps), (mast_tilt_rad, flaperon_rad)))| {
-            let inputs = wing_pylon::Inputs {
-                motion,
-                mast_tilt_rad,
-                thrust_axis,
-                induced_mps,
-                flap_rad: surfaces.flap_rad,
-                flaperon_rad,
-            };
-            wing_pylon::half_wing(&aircraft.wing_pylon, &inputs)
-        },
-    )
+    motions.zip(from_rotors.zip(controls)).map(|(motion, (from_rotor, control))| {
+        let ((thrust_axis, induced_mps), wake_mps) = from_rotor;
+        let (mast_tilt_rad, flaperon_rad) = control;
+        let inputs = wing_pylon::Inputs {
+            motion,
+            mach,
+            alpha_rad: wake.wing_alpha_rad,
+            wake_mps,
+            mast_tilt_rad,
+            thrust_axis,
+            induced_mps,
+            pivot_m: aircraft.rotors.pivot_m,
+            hub_from_cg_m: aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad),
+            flap_rad: surfaces.flap_rad,
+            flaperon_rad,
+        };
+        wing_pylon::half_wing(&aircraft.wing_pylon, &inputs)
+    })
 }
 
 /// Both fins, each as a right one.
-fn fins(aircraft: &Aircraft, surfaces: &actuators::State, motions: Pair<Motion>) -> Pair<Load> {
+fn fins(
+    aircraft: &Aircraft,
+    surfaces: &actuators::State,
+    motions: Pair<Motion>,
+    mach: f64,
+) -> Pair<Load> {
     let right_rad = surfaces.rudder_right_rad;
     motions.zip(Pair { left: -right_rad, right: right_rad }).map(|(motion, rudder_rad)| {
-        let inputs = vertical_stabilizers::Inputs { motion, rudder_rad };
+        let inputs = vertical_stabilizers::Inputs { motion, mach, rudder_rad };
         vertical_stabilizers::fin(&aircraft.vertical_stabilizers, &inputs)
     })
 }

@@ -115,6 +115,7 @@ impl Mirror for PlantRate {
                     .mirrored_axial(),
             },
             rotors: self.rotors.swapped(),
+            horizontal_stabilizer: self.horizontal_stabilizer,
             engines: engines::Rate {
                 power_w_per_s: self.engines.power_w_per_s.swapped(),
                 ..self.engines

@@ -26,6 +26,20 @@ pub struct Table2 {
     pub z: Vec<Vec<f64>>,
 }
 
+/// y over three arguments.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Table3 {
+    /// First arguments, ascending: one per block.
+    pub x: Vec<f64>,
+    /// Second arguments, ascending: one per row.
+    pub y: Vec<f64>,
+    /// Third arguments, ascending: one per column.
+    pub z: Vec<f64>,
+    /// Values by block, row and column.
+    pub w: Vec<Vec<Vec<f64>>>,
+}
+
 /// The interval of `x` that holds `at`, and how far into it `at` lies, 0..1.
 fn locate(x: &[f64], at: f64) -> (usize, f64) {
     let last = x.len().saturating_sub(2);
@@ -39,6 +53,18 @@ impl Table1 {
     pub fn at(&self, x: f64) -> f64 {
         let (i, t) = locate(&self.x, x);
         self.y[i] + t * (self.y[i + 1] - self.y[i])
+    }
+
+    /// The value at `x`; beyond the print it goes over to `outer` within `fade`.
+    pub fn at_or(&self, x: f64, outer: f64, fade: f64) -> f64 {
+        let (first, last) = (self.x[0], self.x[self.x.len() - 1]);
+        let beyond = crate::math::max(first - x, x - last);
+        let held = self.at(x);
+        if beyond <= 0.0 {
+            held
+        } else {
+            held + crate::math::min(beyond / fade, 1.0) * (outer - held)
+        }
     }
 
     /// Why the table cannot be used, if so.
@@ -67,6 +93,34 @@ impl Table2 {
             Some("one row per first argument, one column per second")
         } else {
             axis_fault(&self.x).or_else(|| axis_fault(&self.y))
+        }
+    }
+}
+
+impl Table3 {
+    /// The value at `(x, y, z)`.
+    pub fn at(&self, x: f64, y: f64, z: f64) -> f64 {
+        let (i, r) = locate(&self.x, x);
+        let (j, s) = locate(&self.y, y);
+        let (k, t) = locate(&self.z, z);
+        let along = |row: &[f64]| row[k] + t * (row[k + 1] - row[k]);
+        let block = |rows: &[Vec<f64>]| {
+            let low = along(&rows[j]);
+            low + s * (along(&rows[j + 1]) - low)
+        };
+        let low = block(&self.w[i]);
+        if r > 0.0 { low + r * (block(&self.w[i + 1]) - low) } else { low }
+    }
+
+    /// Why the table cannot be used, if so.
+    pub fn fault(&self) -> Option<&'static str> {
+        let block_fits = |rows: &Vec<Vec<f64>>| {
+            rows.len() == self.y.len() && rows.iter().all(|row| row.len() == self.z.len())
+        };
+        if self.x.len() != self.w.len() || !self.w.iter().all(block_fits) {
+            Some("one block per first argument, one row per second, one column per third")
+        } else {
+            axis_fault(&self.x).or_else(|| axis_fault(&self.y)).or_else(|| axis_fault(&self.z))
         }
     }
 }
@@ -104,5 +158,27 @@ mod tests {
         };
         assert!((table.at(0.5, 5.0) - 2.0).abs() < 1e-15);
         assert!((table.at(7.0, -3.0) - 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn three_arguments_are_linear_in_each() {
+        let flat = |value: f64| vec![vec![value, value + 1.0], vec![value + 2.0, value + 3.0]];
+        let table = Table3 {
+            x: vec![0.0, 1.0],
+            y: vec![0.0, 1.0],
+            z: vec![0.0, 1.0],
+            w: vec![flat(0.0), flat(4.0)],
+        };
+        assert!((table.at(0.5, 0.5, 0.5) - 3.5).abs() < 1e-15);
+        assert!((table.at(9.0, -1.0, 9.0) - 5.0).abs() < 1e-15);
+        assert_eq!(table.fault(), None);
+    }
+
+    #[test]
+    fn beyond_its_print_a_table_goes_over_to_another() {
+        let table = Table1 { x: vec![0.0, 1.0], y: vec![2.0, 4.0] };
+        for (x, y) in [(0.5, 3.0), (1.0, 4.0), (1.5, 5.0), (2.0, 6.0), (9.0, 6.0), (-0.5, 4.0)] {
+            assert!((table.at_or(x, 6.0, 1.0) - y).abs() < 1e-15, "{x}");
+        }
     }
 }

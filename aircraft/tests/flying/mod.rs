@@ -221,14 +221,31 @@ pub fn in_vacuum(xv15: &mut Aircraft) {
     xv15.rotors.hub_spring_n_m_per_rad = 0.0;
     xv15.wing_pylon.area_m2 = 0.0;
     xv15.wing_pylon.immersed_area_m2_max = 0.0;
-    xv15.wing_pylon.pylon_drag_area_m2 = 0.0;
-    xv15.wing_pylon.pylon_drag_area_upright_m2 = 0.0;
-    xv15.fuselage.drag_area_m2 = 0.0;
-    xv15.fuselage.drag_area_across_m2 = 0.0;
-    xv15.fuselage.gear_drag_area_m2 = 0.0;
-    xv15.fuselage.reference_area_m2 = 0.0;
-    xv15.fuselage.side_force_slope_m2_per_rad = 0.0;
-    xv15.fuselage.yawing_moment_slope_m3_per_rad = 0.0;
+    xv15.wing_pylon.interference_m2.y.fill(0.0);
+    xv15.wing_pylon.platform_m2 = 0.0;
+    xv15.wing_pylon.spinner_m2 = 0.0;
+    xv15.wing_pylon.spinner_across_m2 = 0.0;
+    let fuselage = &mut xv15.fuselage;
+    for table in [
+        &mut fuselage.lift_m2,
+        &mut fuselage.drag_m2,
+        &mut fuselage.pitching_m3,
+        &mut fuselage.lift_by_sideslip_m2,
+        &mut fuselage.drag_by_sideslip_m2,
+        &mut fuselage.pitching_by_sideslip_m3,
+        &mut fuselage.side_m2,
+        &mut fuselage.rolling_m3,
+        &mut fuselage.yawing_m3,
+    ] {
+        table.y.fill(0.0);
+    }
+    fuselage.lift_offset_m2 = 0.0;
+    fuselage.drag_offset_m2 = 0.0;
+    fuselage.pitching_offset_m3 = 0.0;
+    fuselage.lift_correction_m2 = 0.0;
+    fuselage.drag_correction_m2 = 0.0;
+    fuselage.pod_drag_m2 = 0.0;
+    fuselage.gear_drag_m2 = 0.0;
     xv15.horizontal_stabilizer.area_m2 = 0.0;
     xv15.vertical_stabilizers.area_m2 = 0.0;
     xv15.engines.jet_thrust_n = 0.0;

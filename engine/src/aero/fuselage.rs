@@ -1,52 +1,65 @@
-//! Fuselage: drag, lift and moments of the body.
+//! Fuselage: lift, drag, side force and moments of the body and of what hangs from it.
 //!
 //! # Equations
 //! ```text
-//! D = q·(f0 + f_c·sin²(angle to the x axis))    L = q·S·CLα·(α − α0)    M = q·S·c·(Cm0 + Cmα·α)   [KH]
-//! Y = q·S_y·β          N = q·V_n·β
+//! L/q = L_α(α)·cos²β + L_β(|β|) + LBFO + LLANG                            [CR536 A-41 to A-44, 3-I to 3-IX]
+//! D/q = D_α(α)·cos²β + D_β(|β|) + DBFO + DLANG + D_POD + D_oMG·gear
+//! M/q = M_α(α)·cos²β + M_β(|β|) + MBFO          Y/q, l/q, N/q: odd in β
+//! beyond ±90°: L(180° ∓ α) = −L(±α), D and M equal
 //! ```
 //! # Signs
-//! α and β as in the flow; N nose right positive.
+//! L, D and Y in wind axes (Y right), moments in body axes about the reference point.
 //! # Assumptions
-//! Lift and moments saturate at 20° of α and β; flow from behind gives drag only.
+//! The lift that comes with sideslip acts along body z, where the source turns it with α: the two
+//! agree at α = 0, and only this one has an answer when the air comes straight from the side. l and N
+//! change sign as the flow comes to be from behind, over ±30° about the vertical. Body rates do not
+//! reach the fuselage's flow.
 
 use serde::Deserialize;
 
-use super::{Motion, flow, in_body_axes, load_at};
+use super::{Motion, ahead, flow};
 use crate::frames::{Load, Structural, Vec3};
-use crate::math::{clamp, cos, square};
+use crate::math::{FRAC_PI_2, PI, cos, sign, sin, square};
+use crate::table::Table1;
 
-/// Beyond this the body no longer lifts like a wing.
-const ANGLE_RAD_MAX: f64 = 0.35;
-
-/// What the fuselage is.
+/// What the fuselage is. Tables over α are printed for ±90°, those over β for positive ones.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Reference point.
     pub centre_m: Vec3<Structural>,
-    /// Reference area of the coefficients.
-    pub reference_area_m2: f64,
-    /// Reference chord.
-    pub reference_chord_m: f64,
-    /// f0, along the axis.
-    pub drag_area_m2: f64,
-    /// Added when the flow comes across.
-    pub drag_area_across_m2: f64,
-    /// CLα.
-    pub lift_slope_per_rad: f64,
-    /// α0.
-    pub zero_lift_rad: f64,
-    /// Cm0.
-    pub pitching_moment_coefficient: f64,
-    /// Cmα.
-    pub pitching_moment_slope_per_rad: f64,
-    /// Side force over q and β; negative.
-    pub side_force_slope_m2_per_rad: f64,
-    /// Yawing moment over q and β; negative turns the nose away from the wind.
-    pub yawing_moment_slope_m3_per_rad: f64,
-    /// Drag area of the extended gear.
-    pub gear_drag_area_m2: f64,
+    /// L_α.
+    pub lift_m2: Table1,
+    /// D_α.
+    pub drag_m2: Table1,
+    /// M_α.
+    pub pitching_m3: Table1,
+    /// L_β.
+    pub lift_by_sideslip_m2: Table1,
+    /// D_β.
+    pub drag_by_sideslip_m2: Table1,
+    /// M_β.
+    pub pitching_by_sideslip_m3: Table1,
+    /// Y.
+    pub side_m2: Table1,
+    /// l.
+    pub rolling_m3: Table1,
+    /// N.
+    pub yawing_m3: Table1,
+    /// LBFO.
+    pub lift_offset_m2: f64,
+    /// DBFO.
+    pub drag_offset_m2: f64,
+    /// MBFO.
+    pub pitching_offset_m3: f64,
+    /// LLANG.
+    pub lift_correction_m2: f64,
+    /// DLANG.
+    pub drag_correction_m2: f64,
+    /// D_POD, of the gear pods.
+    pub pod_drag_m2: f64,
+    /// D_oMG, of the extended gear.
+    pub gear_drag_m2: f64,
 }
 
 /// What the fuselage reads.
@@ -58,31 +71,72 @@ pub struct Inputs {
     pub gear_extension_norm: f64,
 }
 
+impl Params {
+    /// Where a table cannot be used, and why, if so.
+    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+        [
+            ("fuselage.lift", &self.lift_m2),
+            ("fuselage.drag", &self.drag_m2),
+            ("fuselage.pitching", &self.pitching_m3),
+            ("fuselage.lift_by_sideslip", &self.lift_by_sideslip_m2),
+            ("fuselage.drag_by_sideslip", &self.drag_by_sideslip_m2),
+            ("fuselage.pitching_by_sideslip", &self.pitching_by_sideslip_m3),
+            ("fuselage.side", &self.side_m2),
+            ("fuselage.rolling", &self.rolling_m3),
+            ("fuselage.yawing", &self.yawing_m3),
+        ]
+        .into_iter()
+        .find_map(|(name, table)| table.fault().map(|fault| (name, fault)))
+    }
+}
+
+/// α within ±90° with the same drag, and the sign of its lift.
+fn folded(alpha_rad: f64) -> (f64, f64) {
+    if alpha_rad > FRAC_PI_2 {
+        (PI - alpha_rad, -1.0)
+    } else if alpha_rad < -FRAC_PI_2 {
+        (-PI - alpha_rad, -1.0)
+    } else {
+        (alpha_rad, 1.0)
+    }
+}
+
 /// Load of the fuselage.
 pub fn fuselage(params: &Params, inputs: &Inputs) -> Load {
-    let arm = params.centre_m.from_cg(inputs.motion.cg_m);
-    let velocity = inputs.motion.velocity_at(arm);
-    let flow = flow(velocity, inputs.motion.density_kg_per_m3);
-    let limit = |angle_rad| clamp(angle_rad, -ANGLE_RAD_MAX, ANGLE_RAD_MAX);
-    // Fades out as the flow turns to come from behind.
-    let ahead = clamp(cos(flow.alpha_rad), 0.0, 1.0);
-    let alpha = limit(flow.alpha_rad - params.zero_lift_rad);
-    let beta = limit(flow.beta_rad);
+    let flow = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
     let q = flow.pressure_pa;
-    let across = 1.0 - square(cos(flow.alpha_rad) * cos(flow.beta_rad));
-    let drag_m2 = params.drag_area_m2
-        + params.drag_area_across_m2 * across
-        + params.gear_drag_area_m2 * inputs.gear_extension_norm;
-    let lift_n = q * params.reference_area_m2 * params.lift_slope_per_rad * alpha * ahead;
+    let (alpha, lift_sign) = folded(flow.alpha_rad);
+    let (beta, side) = (flow.beta_rad.abs(), sign(flow.beta_rad));
+    let cos2_beta = square(cos(flow.beta_rad));
+
+    let lift_n = q * (lift_sign * params.lift_m2.at(alpha) * cos2_beta + params.lift_correction_m2);
+    let sideslip_lift_n = q * (params.lift_by_sideslip_m2.at(beta) + params.lift_offset_m2);
+    let drag_n = q
+        * (params.drag_m2.at(alpha) * cos2_beta
+            + params.drag_by_sideslip_m2.at(beta)
+            + params.drag_offset_m2
+            + params.drag_correction_m2
+            + params.pod_drag_m2
+            + params.gear_drag_m2 * inputs.gear_extension_norm);
+    let side_n = q * side * params.side_m2.at(beta);
     let pitching_n_m = q
-        * params.reference_area_m2
-        * params.reference_chord_m
-        * (params.pitching_moment_coefficient
-            + params.pitching_moment_slope_per_rad * limit(flow.alpha_rad))
-        * ahead;
-    let side_n = q * params.side_force_slope_m2_per_rad * beta;
-    let yawing_n_m = q * params.yawing_moment_slope_m3_per_rad * beta * ahead;
-    let lift_and_side = in_body_axes(lift_n, 0.0, side_n, flow.alpha_rad);
-    let drag = velocity * (-q * drag_m2 / crate::math::max(flow.speed_mps, 1e-3));
-    load_at(lift_and_side + drag, arm, pitching_n_m).with_moment(Vec3::new(0.0, 0.0, yawing_n_m))
+        * (params.pitching_m3.at(alpha) * cos2_beta
+            + params.pitching_by_sideslip_m3.at(beta)
+            + params.pitching_offset_m3);
+    let turning = q * side * ahead(flow.alpha_rad);
+
+    let (sin_alpha, cos_alpha) = (sin(flow.alpha_rad), cos(flow.alpha_rad));
+    let (sin_beta, cos_beta) = (sin(flow.beta_rad), cos(flow.beta_rad));
+    let back_n = drag_n * cos_beta + side_n * sin_beta;
+    let force = Vec3::new(
+        lift_n * sin_alpha - back_n * cos_alpha,
+        side_n * cos_beta - drag_n * sin_beta,
+        -lift_n * cos_alpha - back_n * sin_alpha - sideslip_lift_n,
+    );
+    let moment = Vec3::new(
+        turning * params.rolling_m3.at(beta),
+        pitching_n_m,
+        turning * params.yawing_m3.at(beta),
+    );
+    Load::at(force, params.centre_m.from_cg(inputs.motion.cg_m)).with_moment(moment)
 }

@@ -1,20 +1,37 @@
-//! Horizontal stabiliser with elevator.
+//! Horizontal stabiliser with elevator, in the wakes of wing and rotors.
 //!
 //! # Equations
 //! ```text
-//! α_H = α_flow + i_H − ε     ε = dε/dα·(α_W − α0W)     CL = CLα·α_H + CLδe·δe        [KH]
-//! CD = CD0 + CL²/(π·e·AR)
+//! α_H = α_flow − ε + i_H, α_flow of V + ω×r + V_H from the rotors             [CR536 A-85 to A-88]
+//! ε = ε(βm, α_WFS, δF)/√(1 − M²), which reaches the tail with the lag τ = l_H/V: τ·ε̇ = ε∞ − ε
+//! CL = K_β(|β|)·CL(α_H, δe) + CL_Hβ·|β|        CD = CD(α_H + K_e·τe·δe)
+//! K_e = X_Ke(M) − D_Ke·(|δe| − 15°)/15° beyond 15°
+//! q_H = ½ρ·η(βm, α, V)·(U² + W²), U and W without the rotors
 //! ```
 //! # Signs
-//! Elevator: trailing edge down positive.
+//! Elevator: trailing edge down positive. Forces stand on the flow at the tail, incidence excluded.
 //! # Assumptions
-//! Downwash follows the wing's angle of attack without delay; rotor interference is left out.
+//! The source's pressure factor K_HNU = .8 is left out: with it the tail loads of its own trim
+//! printouts come out a fifth too small, without it they agree. Above Mach .2 the high-speed tables
+//! take the elevator as a change of angle. CL_Hβ counts up to 20° of sideslip. No pitching moment.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::{Motion, flow, from_behind, in_body_axes, load_at, surface};
-use crate::frames::{Load, Structural, Vec3};
-use crate::math::{PI, clamp, cos, ramp, square};
+use super::polar::ByMach;
+use super::{Motion, flow, in_body_axes, load_at};
+use crate::frames::{Body, Load, Structural, Vec3};
+use crate::math::{PI, atan2, max, min, sqrt, square, wrap_angle};
+use crate::table::{Table1, Table2, Table3};
+
+const DEG: f64 = PI / 180.0;
+/// Elevator angle from which it loses effect.
+const ELEVATOR_FULL_RAD: f64 = 15.0 * DEG;
+/// Sideslip beyond this changes the lift no more.
+const SIDESLIP_RAD_MAX: f64 = 20.0 * DEG;
+/// Slower than this the wing's wake reaches the tail no later.
+const WAKE_MPS_MIN: f64 = 3.0;
+/// Compressibility counts up to here.
+const MACH_MAX: f64 = 0.8;
 
 /// What the stabiliser is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -22,26 +39,48 @@ use crate::math::{PI, clamp, cos, ramp, square};
 pub struct Params {
     /// S.
     pub area_m2: f64,
-    /// AR.
-    pub aspect_ratio: f64,
-    /// e.
-    pub span_efficiency: f64,
     /// Reference point.
     pub centre_m: Vec3<Structural>,
     /// i_H.
     pub incidence_rad: f64,
-    /// CLα.
-    pub lift_slope_per_rad: f64,
-    /// CLδe.
-    pub lift_per_elevator_per_rad: f64,
-    /// Angle at which it stalls.
-    pub stall_rad: f64,
-    /// CD0.
-    pub drag_coefficient_min: f64,
-    /// dε/dα.
-    pub downwash_per_alpha: f64,
-    /// α0W: angle of attack at which the wing gives no downwash.
-    pub downwash_zero_rad: f64,
+    /// l_H, from the wing.
+    pub wake_length_m: f64,
+    /// τe.
+    pub elevator_effect: f64,
+    /// D_Ke.
+    pub elevator_loss: f64,
+    /// X_Ke over Mach number.
+    pub elevator_by_mach: Table1,
+    /// CL over α_H and δe, at Mach number .2 and below.
+    pub lift: Table2,
+    /// CL above, over the angle with the elevator; odd.
+    pub lift_by_mach: ByMach,
+    /// CD over the angle with the elevator, at Mach number .2 and below.
+    pub drag: Table1,
+    /// CD above.
+    pub drag_by_mach: ByMach,
+    /// CL_Hβ.
+    pub lift_by_sideslip_per_rad: f64,
+    /// K_β over |β|.
+    pub sideslip_factor: Table1,
+    /// ε over mast tilt, α_WFS and flap.
+    pub downwash_rad: Table3,
+    /// η over mast tilt, angle of attack and airspeed.
+    pub pressure_ratio: Table3,
+}
+
+/// What the stabiliser remembers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// ε at the tail.
+    pub downwash_rad: f64,
+}
+
+/// How fast the state changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rate {
+    /// Of ε.
+    pub downwash_radps: f64,
 }
 
 /// What the stabiliser reads.
@@ -49,29 +88,76 @@ pub struct Params {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// Mach number.
+    pub mach: f64,
+    /// α_WFS.
+    pub wing_alpha_rad: f64,
+    /// Velocity through the rotors' wake.
+    pub wake_mps: Vec3<Body>,
+    /// Mean βm.
+    pub mast_tilt_rad: f64,
+    /// Flap.
+    pub flap_rad: f64,
     /// δe.
     pub elevator_rad: f64,
 }
 
-/// Load of the stabiliser.
-pub fn horizontal_stabilizer(params: &Params, inputs: &Inputs) -> Load {
+impl Params {
+    /// Where a table cannot be used, and why, if so.
+    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+        [
+            ("horizontal_stabilizer.elevator_by_mach", self.elevator_by_mach.fault()),
+            ("horizontal_stabilizer.lift", self.lift.fault()),
+            ("horizontal_stabilizer.lift_by_mach", self.lift_by_mach.fault()),
+            ("horizontal_stabilizer.drag", self.drag.fault()),
+            ("horizontal_stabilizer.drag_by_mach", self.drag_by_mach.fault()),
+            ("horizontal_stabilizer.sideslip_factor", self.sideslip_factor.fault()),
+            ("horizontal_stabilizer.downwash", self.downwash_rad.fault()),
+            ("horizontal_stabilizer.pressure_ratio", self.pressure_ratio.fault()),
+        ]
+        .into_iter()
+        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    }
+
+    /// ε∞: the wing's downwash as it will be at the tail.
+    pub fn downwash(&self, inputs: &Inputs) -> f64 {
+        let alpha_rad = wrap_angle(inputs.wing_alpha_rad);
+        let slow = self.downwash_rad.at(inputs.mast_tilt_rad, alpha_rad, inputs.flap_rad);
+        slow / sqrt(1.0 - square(min(inputs.mach, MACH_MAX)))
+    }
+}
+
+/// Load of the stabiliser, and the rate of its state.
+pub fn horizontal_stabilizer(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Load) {
+    let whole = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+    let rate = Rate {
+        downwash_radps: (params.downwash(inputs) - state.downwash_rad)
+            * max(whole.speed_mps, WAKE_MPS_MIN)
+            / params.wake_length_m,
+    };
+
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
-    let velocity = inputs.motion.velocity_at(arm);
-    let here = flow(velocity, inputs.motion.density_kg_per_m3);
-    let wing = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
-    // Only flow from ahead carries the wing's downwash to the tail.
-    let ahead = clamp(cos(wing.alpha_rad), 0.0, 1.0);
-    let downwash = params.downwash_per_alpha
-        * clamp(wing.alpha_rad - params.downwash_zero_rad, -0.35, 0.35)
-        * ahead;
-    let flow_rad = here.alpha_rad - downwash;
-    let alpha = from_behind(flow_rad + params.incidence_rad);
-    let (line, base_drag) =
-        surface(params.lift_slope_per_rad, alpha, params.stall_rad, params.drag_coefficient_min);
-    let attached = 1.0 - ramp(alpha.abs(), params.stall_rad, 2.0 * params.stall_rad);
-    let lift = line + attached * params.lift_per_elevator_per_rad * inputs.elevator_rad * ahead;
-    let drag = base_drag + square(lift) / (PI * params.span_efficiency * params.aspect_ratio);
-    let pressure_area = here.pressure_pa * params.area_m2;
+    let own_mps = inputs.motion.velocity_at(arm);
+    let velocity = own_mps + inputs.wake_mps;
+    let flow_rad = atan2(velocity.z, velocity.x) - state.downwash_rad;
+    let alpha = wrap_angle(flow_rad + params.incidence_rad);
+    let beyond = max(0.0, inputs.elevator_rad.abs() / ELEVATOR_FULL_RAD - 1.0);
+    let effect = params.elevator_by_mach.at(inputs.mach) - params.elevator_loss * beyond;
+    let with_elevator = wrap_angle(alpha + effect * params.elevator_effect * inputs.elevator_rad);
+
+    let slow = params.lift.at(alpha, inputs.elevator_rad);
+    let along = params.lift_by_mach.odd_at(inputs.mach, with_elevator, slow);
+    let beta = whole.beta_rad.abs();
+    let lift = params.sideslip_factor.at(beta) * along
+        + params.lift_by_sideslip_per_rad * min(beta, SIDESLIP_RAD_MAX);
+    let drag = params.drag_by_mach.at(inputs.mach, with_elevator, params.drag.at(with_elevator));
+
+    let ratio = params.pressure_ratio.at(inputs.mast_tilt_rad, whole.alpha_rad, whole.speed_mps);
+    let pressure_area = 0.5
+        * inputs.motion.density_kg_per_m3
+        * ratio
+        * (square(own_mps.x) + square(own_mps.z))
+        * params.area_m2;
     let force = in_body_axes(pressure_area * lift, pressure_area * drag, 0.0, flow_rad);
-    load_at(force, arm, 0.0)
+    (rate, load_at(force, arm, 0.0))
 }

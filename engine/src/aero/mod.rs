@@ -1,12 +1,14 @@
-//! Aerodynamics of the airframe: one block per component.
+//! Aerodynamics of the airframe: one block per component, and one for the rotors' wake on them.
 
 pub mod fuselage;
 pub mod horizontal_stabilizer;
+pub mod polar;
+pub mod rotor_wake;
 pub mod vertical_stabilizers;
 pub mod wing_pylon;
 
 use crate::frames::{Body, Load, Structural, Vec3};
-use crate::math::{FRAC_PI_2, atan2, clamp, cos, sin, sqrt, square};
+use crate::math::{FRAC_PI_2, PI, atan2, clamp, cos, sin, sqrt, square};
 
 /// Least dynamic length, so that a standing aircraft divides by something, m/s.
 const SPEED_MPS_MIN: f64 = 1e-3;
@@ -66,26 +68,6 @@ pub fn flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> Flow {
     }
 }
 
-/// A lifting surface at any angle: a line until the stall, a flat plate beyond.
-///
-/// Returns the lift and drag coefficients; drag without its induced part.
-fn surface(
-    lift_slope_per_rad: f64,
-    alpha_rad: f64,
-    stall_rad: f64,
-    drag_coefficient_min: f64,
-) -> (f64, f64) {
-    // From the stall to 10° beyond it the one becomes the other.
-    const FADE_RAD: f64 = 0.175;
-    const PLATE_LIFT: f64 = 1.1;
-    const PLATE_DRAG: f64 = 1.6;
-    let plate = clamp((alpha_rad.abs() - stall_rad) / FADE_RAD, 0.0, 1.0);
-    let line = lift_slope_per_rad * clamp(alpha_rad, -stall_rad, stall_rad);
-    let lift = line + plate * (PLATE_LIFT * sin(2.0 * alpha_rad) - line);
-    let drag = drag_coefficient_min + plate * PLATE_DRAG * square(sin(alpha_rad));
-    (lift, drag)
-}
-
 /// Lift and drag in body axes; side force along y.
 fn in_body_axes(lift_n: f64, drag_n: f64, side_n: f64, alpha_rad: f64) -> Vec3<Body> {
     let (s, c) = (sin(alpha_rad), cos(alpha_rad));
@@ -97,15 +79,10 @@ fn pitching(moment_n_m: f64) -> Vec3<Body> {
     Vec3::new(0.0, moment_n_m, 0.0)
 }
 
-/// Angle of attack brought to −π/2..π/2 by looking at the surface from behind where the flow does.
-fn from_behind(alpha_rad: f64) -> f64 {
-    if alpha_rad > FRAC_PI_2 {
-        alpha_rad - crate::math::PI
-    } else if alpha_rad < -FRAC_PI_2 {
-        alpha_rad + crate::math::PI
-    } else {
-        alpha_rad
-    }
+/// How much the flow comes from ahead: 1 up to 60° of angle of attack, −1 from 120°, 0 from above.
+fn ahead(alpha_rad: f64) -> f64 {
+    const OVER_RAD: f64 = PI / 6.0;
+    clamp((FRAC_PI_2 - alpha_rad.abs()) / OVER_RAD, -1.0, 1.0)
 }
 
 /// A load at rest.
@@ -116,16 +93,6 @@ fn load_at(force_n: Vec3<Body>, from_cg_m: Vec3<Body>, pitching_n_m: f64) -> Loa
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_surface_is_odd_in_lift_and_even_in_drag() {
-        for alpha_rad in [0.05, 0.2, 0.3, 0.9, 1.5] {
-            let (lift, drag) = surface(5.0, alpha_rad, 0.25, 0.01);
-            let (mirrored, same) = surface(5.0, -alpha_rad, 0.25, 0.01);
-            assert_eq!(lift.to_bits(), (-mirrored).to_bits());
-            assert_eq!(drag.to_bits(), same.to_bits());
-        }
-    }
 
     #[test]
     fn lift_is_across_and_drag_along_the_flow() {

@@ -2,19 +2,30 @@
 //!
 //! # Equations
 //! ```text
-//! CY = −CYβ·β − CYδ·δr       CD = CD0 + CY²/(π·e·AR)                                [KH]
+//! β_V = atan2(V, U_W) + .1·p·b/2U      U_W = √(U² + W²), U at least 35 ft/s          [CR536 subsystem 6]
+//! K_V = K_βR(V, |β|)·(1 − ∂σ/∂β)(α, |β|)                rotors' and fuselage's sidewash
+//! CY = K_V·CY(β_V) + ΔCY(δr) up to Mach .2; above it the tables by Mach number and a·X_Kr·τr·δr
+//! CD = K_V·CD(β_V + K_r·τr·δr)         q = ½ρ·(U_W² + V²)
 //! ```
 //! # Signs
-//! Rudder: trailing edge right positive, which pushes the tail left and the nose right.
-//! Written for the right fin; the left is its mirror image.
+//! β from the right positive; CY pushes to the left, across the flow. Rudder: trailing edge right
+//! positive, which pushes the tail left and the nose right. Written for the right fin; the left is its
+//! mirror image.
 //! # Assumptions
-//! Linear until the stall, a flat plate beyond; sidewash and rotor interference are left out.
+//! U_W changes sign over ±30° about the vertical, so that the tables' whole circle is flown: the source
+//! says how from ahead only. No velocity from the rotors. β of the sidewash factors is the aircraft's.
 
 use serde::Deserialize;
 
-use super::{Motion, flow, load_at, surface};
+use super::polar::ByMach;
+use super::{Motion, ahead, flow, load_at};
 use crate::frames::{Load, Structural, Vec3};
-use crate::math::{PI, clamp, cos, max, ramp, square};
+use crate::math::{PI, atan2, cos, max, ramp, sin, sqrt, square};
+use crate::table::{Table1, Table2};
+
+const DEG: f64 = PI / 180.0;
+/// Rudder angle from which it loses effect.
+const RUDDER_FULL_RAD: f64 = 15.0 * DEG;
 
 /// What a fin is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -22,20 +33,34 @@ use crate::math::{PI, clamp, cos, max, ramp, square};
 pub struct Params {
     /// S of one fin.
     pub area_m2: f64,
-    /// AR.
-    pub aspect_ratio: f64,
-    /// e.
-    pub span_efficiency: f64,
     /// Reference point of the right fin.
     pub centre_m: Vec3<Structural>,
-    /// CYβ.
-    pub side_force_slope_per_rad: f64,
-    /// CYδ.
-    pub side_force_per_rudder_per_rad: f64,
-    /// Angle at which it stalls.
-    pub stall_rad: f64,
-    /// CD0.
-    pub drag_coefficient_min: f64,
+    /// CY over β and δr at Mach number .2 and below; odd, printed for negative β.
+    pub side_force: Table2,
+    /// CY above, rudder at 0; odd.
+    pub side_force_by_mach: ByMach,
+    /// CD over |β| at Mach number .2 and below.
+    pub drag: Table1,
+    /// CD above.
+    pub drag_by_mach: ByMach,
+    /// a, above Mach .2.
+    pub lift_slope_per_rad: f64,
+    /// τr.
+    pub rudder_effect: f64,
+    /// D_Kr.
+    pub rudder_loss: f64,
+    /// X_Kr over Mach number.
+    pub rudder_by_mach: Table1,
+    /// K_βR over airspeed and |β|.
+    pub rotor_sidewash: Table2,
+    /// 1 − ∂σ/∂β over α and |β|.
+    pub fuselage_sidewash: Table2,
+    /// ∂σ/∂p̂.
+    pub sidewash_by_roll_rate: f64,
+    /// b of the wing, to which p̂ refers.
+    pub wing_span_m: f64,
+    /// Least speed of p̂.
+    pub sidewash_speed_mps_min: f64,
 }
 
 /// What the right fin reads.
@@ -43,27 +68,83 @@ pub struct Params {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// Mach number.
+    pub mach: f64,
     /// δr, outboard positive (to the right for the right fin).
     pub rudder_rad: f64,
+}
+
+impl Params {
+    /// Where a table cannot be used, and why, if so.
+    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+        [
+            ("vertical_stabilizers.side_force", self.side_force.fault()),
+            ("vertical_stabilizers.side_force_by_mach", self.side_force_by_mach.fault()),
+            ("vertical_stabilizers.drag", self.drag.fault()),
+            ("vertical_stabilizers.drag_by_mach", self.drag_by_mach.fault()),
+            ("vertical_stabilizers.rudder_by_mach", self.rudder_by_mach.fault()),
+            ("vertical_stabilizers.rotor_sidewash", self.rotor_sidewash.fault()),
+            ("vertical_stabilizers.fuselage_sidewash", self.fuselage_sidewash.fault()),
+        ]
+        .into_iter()
+        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    }
+
+    /// CY at Mach number .2 and below.
+    pub fn slow_side_force(&self, beta_rad: f64, rudder_rad: f64) -> f64 {
+        if beta_rad > 0.0 {
+            -self.side_force.at(-beta_rad, -rudder_rad)
+        } else {
+            self.side_force.at(beta_rad, rudder_rad)
+        }
+    }
 }
 
 /// Load of the right fin.
 pub fn fin(params: &Params, inputs: &Inputs) -> Load {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
     let velocity = inputs.motion.velocity_at(arm);
-    let flow = flow(velocity, inputs.motion.density_kg_per_m3);
-    let ahead = clamp(cos(flow.alpha_rad), 0.0, 1.0);
-    let (line, base_drag) = surface(
-        params.side_force_slope_per_rad,
-        flow.beta_rad,
-        params.stall_rad,
-        params.drag_coefficient_min,
+    let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
+    let forward = ahead(atan2(velocity.z, velocity.x));
+    let along_mps = forward * in_plane_mps;
+
+    let flow_rad = atan2(velocity.y, along_mps);
+    let speed_mps = max(velocity.x.abs(), params.sidewash_speed_mps_min);
+    let direction = if velocity.x < 0.0 { -1.0 } else { 1.0 };
+    let roll = inputs.motion.angular_rate_radps.x * params.wing_span_m / (2.0 * speed_mps);
+    let beta = flow_rad - direction * params.sidewash_by_roll_rate * roll;
+
+    let whole = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+    let sideslip = whole.beta_rad.abs();
+    let factor = params.rotor_sidewash.at(whole.speed_mps, sideslip)
+        * params.fuselage_sidewash.at(whole.alpha_rad, sideslip);
+
+    let effect = params.rudder_by_mach.at(inputs.mach);
+    let loss = max(0.0, inputs.rudder_rad.abs() / RUDDER_FULL_RAD - 1.0);
+    let slow_fin = params.slow_side_force(beta, 0.0);
+    let slow_rudder = params.slow_side_force(beta, inputs.rudder_rad) - slow_fin;
+    let fin = params.side_force_by_mach.odd_at(inputs.mach, beta, slow_fin);
+    let fast_rudder = params.lift_slope_per_rad * effect * params.rudder_effect * inputs.rudder_rad;
+    let fast = ramp(inputs.mach, 0.2, 0.4) * max(0.0, cos(flow_rad));
+    let rudder = slow_rudder + fast * (fast_rudder - slow_rudder);
+    let side = factor * fin + rudder;
+    let with_rudder =
+        beta + (effect - params.rudder_loss * loss) * params.rudder_effect * inputs.rudder_rad;
+    let angle = with_rudder.abs();
+    let drag = factor * params.drag_by_mach.at(inputs.mach, angle, params.drag.at(angle));
+
+    let pressure_area = 0.5
+        * inputs.motion.density_kg_per_m3
+        * (square(along_mps) + square(velocity.y))
+        * params.area_m2;
+    let (s, c) = (sin(flow_rad), cos(flow_rad));
+    let chordwise_n = pressure_area * (side * s - drag * c);
+    // The way the chord lies in the plane of symmetry's flow: ahead, or astern.
+    let chord = (if forward < 0.0 { -1.0 } else { 1.0 }) / max(in_plane_mps, 1e-3);
+    let force = Vec3::new(
+        chordwise_n * velocity.x * chord,
+        -pressure_area * (side * c + drag * s),
+        chordwise_n * velocity.z * chord,
     );
-    let attached = 1.0 - ramp(flow.beta_rad.abs(), params.stall_rad, 2.0 * params.stall_rad);
-    let side = line + attached * params.side_force_per_rudder_per_rad * inputs.rudder_rad * ahead;
-    let drag = base_drag + square(side) / (PI * params.span_efficiency * params.aspect_ratio);
-    let pressure_area = flow.pressure_pa * params.area_m2;
-    let along = velocity * (1.0 / max(flow.speed_mps, 1e-3));
-    let force = Vec3::new(0.0, -pressure_area * side, 0.0) + along * (-pressure_area * drag);
     load_at(force, arm, 0.0)
 }

@@ -1,24 +1,44 @@
-//! Wing and pylons: one half of the wing, in free stream and in its rotor's wake.
+//! Wing and pylons: one half of the wing, in free stream and in its rotor's wake, its pylon and spinner.
 //!
 //! # Equations
 //! ```text
-//! α = α_flow + i_W      CL = CLα·(α − α0) + CLδ·δ_flap + CLδa·δ_flaperon             [KH]
-//! CD = CD0 + CDδ·δ_flap + CL²/(π·e·AR)
-//! S_ss = S_ssmax·[sin(1.386(π/2 − βm)) + cos(3.114(π/2 − βm))]·(u_max − u)/u_max, 0..S/2    [KH]
-//! download: the immersed part meets V + 1.6·v along the thrust, CDi on it               [CR536]
-//! D_pylon = q·(f_0 + (f_h − f_0)·cos²βm)
+//! free stream, q = ½ρ(U² + W²), all on α_WFS:                                     [CR536 A-70 to A-74]
+//!   L = q·((S/2 − S_ss)·CL − S/2·CLδa·|δa|)   D = q·(S/2 − S_ss)·CD   M = q·S/2·c·Cm
+//!   l = q·S/2·b·(Clβ·β + Clp·p̂ + Clr·CL·r̂ − K·Clδa·δa)               p̂ = p·b/2V, r̂ alike
+//!   N = q·S/2·b·((Cnβ + Cnβ2·CL²)·β + Cnp·CL·p̂ + (Cnr2·CL² + Cnr0·CD0)·r̂)
+//!       − q_iw·S/2·b·(K_n0 + K_n·CL·K·Clδa)·δa
+//! immersed: S_ss with the same CL and CD at V + K0·v·n; q_iw = ½ρ(U² + W²) there         [CR536 A-69]
+//! S_ss = S_ssmax·[sin(1.386(π/2 − βm)) + cos(3.114(π/2 − βm))]·(u_max − u)/u_max, 0..S/2      [KH]
+//! pylon:   D = q_iw·D_PYINT(βm)/2 + q_SP·S_PLAT·K_PLAT(β_SP)           at the pivot      [CR536 A-75]
+//! spinner: D = q_SP·(1 + 5.5·sin³α_m)      at the hub, at V + v·n, α_m to the mast       [CR536 A-76]
 //! ```
 //! # Signs
-//! Written for the right half; the left is its mirror image. Flaps and flaperon: down positive.
+//! Written for the right half; the left is its mirror image. Flaps and flaperon: down positive, so the
+//! right half's flaperon rolls to the left.
 //! # Assumptions
-//! Linear until the stall, a flat plate beyond; the wake is all on or all off its area; interference
-//! of the wake with the flow ahead is left out.
+//! Roll, yaw and sideslip act on the free stream through the published coefficients, so its α and q
+//! are those of the centre of gravity and not the half wing's own: taking both would count the
+//! damping twice. The immersed part sees the half wing's own motion. α is the body's: the tables
+//! contain the incidence. Coefficients of rate and sideslip fade as the flaperons' do, from 8 to 25°
+//! of α; β counts up to 20°. Platform drag comes with the hub's sideways motion only: the
+//! source's trim printouts have none in symmetric flight. The lift that the rotors add to the wing
+//! between hover and 80 kt (K_FW, K_RW) is left out, as its equation is not at hand.
 
 use serde::Deserialize;
 
-use super::{Motion, flow, from_behind, in_body_axes, load_at, surface};
+use super::polar::{Flap, Polar};
+use super::{Motion, flow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
-use crate::math::{FRAC_PI_2, PI, clamp, cos, max, sin, square};
+use crate::math::{FRAC_PI_2, PI, atan2, clamp, cos, max, ramp, sin, sqrt, square, wrap_angle};
+use crate::table::{Table1, Table2};
+
+const DEG: f64 = PI / 180.0;
+/// Flaperons work fully up to here …
+const ATTACHED_RAD: f64 = 8.0 * DEG;
+/// … and no longer from here on.
+const SEPARATED_RAD: f64 = 25.0 * DEG;
+/// Sideslip beyond this changes nothing more.
+const SIDESLIP_RAD_MAX: f64 = 20.0 * DEG;
 
 /// What a half wing is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -26,44 +46,62 @@ use crate::math::{FRAC_PI_2, PI, clamp, cos, max, sin, square};
 pub struct Params {
     /// S of both halves.
     pub area_m2: f64,
-    /// Mean chord.
+    /// c.
     pub chord_m: f64,
+    /// b.
+    pub span_m: f64,
     /// Aerodynamic centre of the right half.
     pub centre_m: Vec3<Structural>,
-    /// AR.
-    pub aspect_ratio: f64,
-    /// e.
-    pub span_efficiency: f64,
-    /// CLα.
-    pub lift_slope_per_rad: f64,
-    /// α0 to the body axis, incidence included.
-    pub zero_lift_rad: f64,
-    /// Angle from zero lift at which the wing stalls.
-    pub stall_rad: f64,
-    /// CLδ of the flap.
-    pub lift_per_flap_per_rad: f64,
-    /// ΔCL of the half wing per flaperon angle.
-    pub lift_per_flaperon_per_rad: f64,
-    /// CD0.
-    pub drag_coefficient_min: f64,
-    /// CDδ of the flap.
-    pub drag_per_flap_per_rad: f64,
-    /// Cm about the aerodynamic centre.
-    pub pitching_moment_coefficient: f64,
+    /// CL.
+    pub lift: Polar,
+    /// CD.
+    pub drag: Polar,
+    /// Cm over mast tilt and flap.
+    pub pitching_moment: Table2,
+    /// CD0, at no lift, over mast tilt and flap.
+    pub drag_at_no_lift: Table2,
+    /// Clβ at no lift, over mast tilt and flap.
+    pub rolling_by_sideslip_per_rad: Table2,
+    /// What Clβ grows by with CL.
+    pub rolling_by_sideslip_and_lift_per_rad: Table2,
+    /// Clp.
+    pub rolling_by_roll_rate: f64,
+    /// Clr/CL.
+    pub rolling_by_yaw_rate_and_lift: f64,
+    /// Cnβ at no lift.
+    pub yawing_by_sideslip_per_rad: f64,
+    /// Cnβ/CL².
+    pub yawing_by_sideslip_and_lift2_per_rad: f64,
+    /// Cnp/CL.
+    pub yawing_by_roll_rate_and_lift: f64,
+    /// Cnr/CL².
+    pub yawing_by_yaw_rate_and_lift2: f64,
+    /// Cnr/CD0.
+    pub yawing_by_yaw_rate_and_drag: f64,
+    /// Clδa.
+    pub rolling_by_flaperon_per_rad: f64,
+    /// K over mast tilt and flap.
+    pub flaperon_factor: Table2,
+    /// CLδa over flap.
+    pub lift_loss_by_flaperon_per_rad: Table1,
+    /// K_n0 over mast tilt and flap.
+    pub yawing_by_flaperon_per_rad: Table2,
+    /// K_n over mast tilt and flap.
+    pub yawing_by_flaperon_and_lift: Table2,
     /// S_ssmax: immersed area of a half wing in hover.
     pub immersed_area_m2_max: f64,
     /// u_max: forward speed at which the wake has left the wing.
     pub immersed_speed_mps_max: f64,
-    /// Drag coefficient of the immersed part, flaps up.
-    pub immersed_drag_coefficient: f64,
-    /// Its change with flap angle.
-    pub immersed_drag_per_flap_per_rad: f64,
-    /// K0: wake velocity at the wing over the mean induced velocity.
-    pub wake_factor: f64,
-    /// Drag area of one pylon as an aeroplane.
-    pub pylon_drag_area_m2: f64,
-    /// Drag area of one upright pylon.
-    pub pylon_drag_area_upright_m2: f64,
+    /// D_PYINT of both pylons over mast tilt.
+    pub interference_m2: Table1,
+    /// S_PLAT of one pylon.
+    pub platform_m2: f64,
+    /// K_PLAT over the angle of the flow from the side.
+    pub platform_factor: Table1,
+    /// Drag area of a spinner along its mast.
+    pub spinner_m2: f64,
+    /// Added when the flow comes across.
+    pub spinner_across_m2: f64,
 }
 
 /// What the right half reads.
@@ -71,16 +109,71 @@ pub struct Params {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// Mach number.
+    pub mach: f64,
+    /// α_WFS.
+    pub alpha_rad: f64,
+    /// K0·v·n: velocity of the half wing through its wake.
+    pub wake_mps: Vec3<Body>,
     /// βm of this side's nacelle.
     pub mast_tilt_rad: f64,
-    /// Unit vector of this side's thrust.
+    /// n, of this side's thrust.
     pub thrust_axis: Vec3<Body>,
     /// v of this side's rotor.
     pub induced_mps: f64,
+    /// Conversion pivot, where the pylon's drag acts.
+    pub pivot_m: Vec3<Structural>,
+    /// Hub.
+    pub hub_from_cg_m: Vec3<Body>,
     /// Flap.
     pub flap_rad: f64,
     /// This side's flaperon beyond the flap's setting.
     pub flaperon_rad: f64,
+}
+
+/// Loads of the right half by what they come from.
+#[derive(Clone, Copy, Debug)]
+pub struct Outputs {
+    /// The part outside the wake, with all moments.
+    pub free_stream: Load,
+    /// The part in the wake.
+    pub immersed: Load,
+    /// The pylon.
+    pub pylon: Load,
+    /// The spinner.
+    pub spinner: Load,
+}
+
+impl Outputs {
+    /// All together.
+    pub fn total(&self) -> Load {
+        self.free_stream + self.immersed + self.pylon + self.spinner
+    }
+}
+
+impl Params {
+    /// Where a table cannot be used, and why, if so.
+    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+        [
+            ("wing_pylon.lift", self.lift.fault()),
+            ("wing_pylon.drag", self.drag.fault()),
+            ("wing_pylon.pitching_moment", self.pitching_moment.fault()),
+            ("wing_pylon.drag_at_no_lift", self.drag_at_no_lift.fault()),
+            ("wing_pylon.rolling_by_sideslip", self.rolling_by_sideslip_per_rad.fault()),
+            (
+                "wing_pylon.rolling_by_sideslip_and_lift",
+                self.rolling_by_sideslip_and_lift_per_rad.fault(),
+            ),
+            ("wing_pylon.flaperon_factor", self.flaperon_factor.fault()),
+            ("wing_pylon.lift_loss_by_flaperon", self.lift_loss_by_flaperon_per_rad.fault()),
+            ("wing_pylon.yawing_by_flaperon", self.yawing_by_flaperon_per_rad.fault()),
+            ("wing_pylon.yawing_by_flaperon_and_lift", self.yawing_by_flaperon_and_lift.fault()),
+            ("wing_pylon.interference", self.interference_m2.fault()),
+            ("wing_pylon.platform_factor", self.platform_factor.fault()),
+        ]
+        .into_iter()
+        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    }
 }
 
 /// The part of the half wing in the wake, m².
@@ -88,52 +181,143 @@ pub fn immersed_area(params: &Params, mast_tilt_rad: f64, forward_mps: f64) -> f
     let upright = FRAC_PI_2 - mast_tilt_rad;
     let footprint = sin(1.386 * upright) + cos(3.114 * upright);
     // The printed law gives the whole area again as an aeroplane; the wake has left the wing by then.
-    let leaving = crate::math::ramp(cos(mast_tilt_rad), 0.0, 0.5);
+    let leaving = ramp(cos(mast_tilt_rad), 0.0, 0.5);
     let blown =
         max(0.0, params.immersed_speed_mps_max - forward_mps.abs()) / params.immersed_speed_mps_max;
     clamp(params.immersed_area_m2_max * footprint * leaving * blown, 0.0, 0.5 * params.area_m2)
 }
 
-/// Load of the right half.
-pub fn half_wing(params: &Params, inputs: &Inputs) -> Load {
+/// Loads of the right half.
+pub fn half_wing(params: &Params, inputs: &Inputs) -> Outputs {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
-    let velocity = inputs.motion.velocity_at(arm);
     let immersed_m2 = immersed_area(params, inputs.mast_tilt_rad, inputs.motion.airspeed_mps.x);
+    let rho = inputs.motion.density_kg_per_m3;
+    let washed_mps = inputs.motion.velocity_at(arm) + inputs.wake_mps;
+    let washed = Washed {
+        alpha_rad: atan2(washed_mps.z, washed_mps.x),
+        pressure_pa: 0.5 * rho * (square(washed_mps.x) + square(washed_mps.z)),
+    };
+    Outputs {
+        free_stream: free_stream(params, inputs, arm, immersed_m2, washed.pressure_pa),
+        immersed: immersed(params, inputs, arm, immersed_m2, washed),
+        pylon: pylon(params, inputs, washed),
+        spinner: spinner(params, inputs),
+    }
+}
 
-    let free = flow(velocity, inputs.motion.density_kg_per_m3);
-    let alpha = from_behind(free.alpha_rad) - params.zero_lift_rad;
-    let (line, base_drag) =
-        surface(params.lift_slope_per_rad, alpha, params.stall_rad, params.drag_coefficient_min);
-    // Controls work on attached flow only.
-    let attached = 1.0 - crate::math::ramp(alpha.abs(), params.stall_rad, 2.0 * params.stall_rad);
-    let lift_coefficient = line
-        + attached
-            * (params.lift_per_flap_per_rad * inputs.flap_rad
-                + params.lift_per_flaperon_per_rad * inputs.flaperon_rad);
-    let drag_coefficient = base_drag
-        + params.drag_per_flap_per_rad * inputs.flap_rad
-        + square(lift_coefficient) / (PI * params.span_efficiency * params.aspect_ratio);
-    let pressure_area = free.pressure_pa * (0.5 * params.area_m2 - immersed_m2);
-    let pylon_m2 = params.pylon_drag_area_m2
-        + (params.pylon_drag_area_upright_m2 - params.pylon_drag_area_m2)
-            * square(cos(inputs.mast_tilt_rad));
-    let force = in_body_axes(
-        pressure_area * lift_coefficient,
-        pressure_area * drag_coefficient + free.pressure_pa * pylon_m2,
-        0.0,
-        free.alpha_rad,
-    );
-    let pitching_n_m = pressure_area * params.chord_m * params.pitching_moment_coefficient;
+/// Flow in the plane of symmetry at the half wing in its wake.
+#[derive(Clone, Copy)]
+struct Washed {
+    alpha_rad: f64,
+    /// q_iw.
+    pressure_pa: f64,
+}
 
-    // The wake blows against the thrust: the wing moves through it along the thrust.
-    let blown = velocity + inputs.thrust_axis * (params.wake_factor * inputs.induced_mps);
-    let washed = flow(blown, inputs.motion.density_kg_per_m3);
-    let download = max(
-        0.0,
-        params.immersed_drag_coefficient + params.immersed_drag_per_flap_per_rad * inputs.flap_rad,
-    );
-    let along = blown * (1.0 / max(washed.speed_mps, 1e-3));
-    let wake_force = along * (-washed.pressure_pa * immersed_m2 * download);
+fn free_stream(
+    params: &Params,
+    inputs: &Inputs,
+    arm: Vec3<Body>,
+    immersed_m2: f64,
+    washed_pa: f64,
+) -> Load {
+    let velocity = inputs.motion.airspeed_mps;
+    let speed_mps = sqrt(square(velocity.x) + square(velocity.z));
+    let rho = inputs.motion.density_kg_per_m3;
+    let q = 0.5 * rho * square(speed_mps);
+    let (tilt, flap) = (inputs.mast_tilt_rad, Flap::new(inputs.flap_rad));
+    let alpha = wrap_angle(inputs.alpha_rad);
+    let cl = params.lift.at(tilt, flap, inputs.mach, alpha);
+    let cd = params.drag.at(tilt, flap, inputs.mach, alpha);
+    let cm = params.pitching_moment.at(tilt, inputs.flap_rad);
 
-    load_at(force + wake_force, arm, pitching_n_m)
+    let half_m2 = 0.5 * params.area_m2;
+    let free_m2 = half_m2 - immersed_m2;
+    let attached = 1.0 - ramp(alpha.abs(), ATTACHED_RAD, SEPARATED_RAD);
+    let lift_loss = params.lift_loss_by_flaperon_per_rad.at(inputs.flap_rad)
+        * inputs.flaperon_rad.abs()
+        * attached;
+    let lift_n = q * (free_m2 * cl - half_m2 * lift_loss);
+    let force = in_body_axes(lift_n, q * free_m2 * cd, 0.0, inputs.alpha_rad);
+    let pitching_n_m = q * half_m2 * params.chord_m * cm;
+
+    let beta = clamp(flow(velocity, rho).beta_rad, -SIDESLIP_RAD_MAX, SIDESLIP_RAD_MAX) * attached;
+    // q·p̂ and q·r̂, which stay finite at rest.
+    let rate = 0.25 * rho * speed_mps * params.span_m * attached;
+    let (roll, yaw) =
+        (rate * inputs.motion.angular_rate_radps.x, rate * inputs.motion.angular_rate_radps.z);
+    let cl2 = square(cl);
+    let by_flaperon = params.rolling_by_flaperon_per_rad
+        * params.flaperon_factor.at(tilt, inputs.flap_rad)
+        * attached;
+    let rolling = q
+        * ((params.rolling_by_sideslip_per_rad.at(tilt, inputs.flap_rad)
+            + params.rolling_by_sideslip_and_lift_per_rad.at(tilt, inputs.flap_rad) * cl)
+            * beta
+            - by_flaperon * inputs.flaperon_rad)
+        + params.rolling_by_roll_rate * roll
+        + params.rolling_by_yaw_rate_and_lift * cl * yaw;
+    let yawing = q
+        * (params.yawing_by_sideslip_per_rad + params.yawing_by_sideslip_and_lift2_per_rad * cl2)
+        * beta
+        + params.yawing_by_roll_rate_and_lift * cl * roll
+        + (params.yawing_by_yaw_rate_and_lift2 * cl2
+            + params.yawing_by_yaw_rate_and_drag
+                * params.drag_at_no_lift.at(tilt, inputs.flap_rad))
+            * yaw
+        - washed_pa
+            * (params.yawing_by_flaperon_per_rad.at(tilt, inputs.flap_rad) * attached
+                + params.yawing_by_flaperon_and_lift.at(tilt, inputs.flap_rad) * cl * by_flaperon)
+            * inputs.flaperon_rad;
+    let lever = half_m2 * params.span_m;
+    load_at(force, arm, pitching_n_m).with_moment(Vec3::new(rolling * lever, 0.0, yawing * lever))
+}
+
+fn immersed(
+    params: &Params,
+    inputs: &Inputs,
+    arm: Vec3<Body>,
+    immersed_m2: f64,
+    washed: Washed,
+) -> Load {
+    if immersed_m2 <= 0.0 {
+        return Load::default();
+    }
+    let flap = Flap::new(inputs.flap_rad);
+    let cl = params.lift.at(inputs.mast_tilt_rad, flap, inputs.mach, washed.alpha_rad);
+    let cd = params.drag.at(inputs.mast_tilt_rad, flap, inputs.mach, washed.alpha_rad);
+    let pressure_area = washed.pressure_pa * immersed_m2;
+    let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, washed.alpha_rad);
+    load_at(force, arm, 0.0)
+}
+
+/// Velocity of the hub through the air, its own rotor's included.
+fn hub_velocity(inputs: &Inputs) -> Vec3<Body> {
+    inputs.motion.velocity_at(inputs.hub_from_cg_m) + inputs.thrust_axis * inputs.induced_mps
+}
+
+fn pylon(params: &Params, inputs: &Inputs, washed: Washed) -> Load {
+    let drag_n = 0.5 * params.interference_m2.at(inputs.mast_tilt_rad) * washed.pressure_pa;
+    let interference = in_body_axes(0.0, drag_n, 0.0, washed.alpha_rad);
+    let velocity = hub_velocity(inputs);
+    let sideways_mps = inputs.motion.velocity_at(inputs.hub_from_cg_m).y;
+    let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
+    let angle_rad = atan2(sideways_mps.abs(), in_plane_mps);
+    let platform_m2 = params.platform_m2 * params.platform_factor.at(angle_rad);
+    let platform = along(velocity, inputs.motion.density_kg_per_m3, platform_m2);
+    Load::at(interference + platform, inputs.pivot_m.from_cg(inputs.motion.cg_m))
+}
+
+fn spinner(params: &Params, inputs: &Inputs) -> Load {
+    let velocity = hub_velocity(inputs);
+    let speed_mps = max(velocity.norm(), 1e-3);
+    let cos_mast = velocity.dot(inputs.thrust_axis) / speed_mps;
+    let sin_mast = sqrt(max(0.0, 1.0 - square(cos_mast)));
+    let area_m2 = params.spinner_m2 + params.spinner_across_m2 * sin_mast * square(sin_mast);
+    let force = along(velocity, inputs.motion.density_kg_per_m3, area_m2);
+    Load::at(force, inputs.hub_from_cg_m)
+}
+
+/// Drag against a velocity.
+fn along(velocity: Vec3<Body>, density_kg_per_m3: f64, area_m2: f64) -> Vec3<Body> {
+    velocity * (-0.5 * density_kg_per_m3 * velocity.norm() * area_m2)
 }

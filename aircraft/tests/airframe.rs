@@ -1,0 +1,300 @@
+//! The airframe's aerodynamics against the reports.
+//!
+//! The printouts of CR537 (level helicopter flight at 40, 60, 80 and 100 kt, flaps 40/25) name every
+//! component's load. Here each component is asked alone, with the printed motion, inflow, rotor force,
+//! advance ratio and elevator forced, so that no trim stands between the two numbers.
+
+use engine::Aircraft;
+use engine::aero::{
+    Motion, fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
+};
+use engine::frames::{Body, Load, Vec3};
+use engine::math::{PI, sqrt, square};
+use engine::pair::Pair;
+
+const DEG: f64 = PI / 180.0;
+const FT: f64 = 0.3048;
+const LBF: f64 = 4.448_221_615_260_5;
+const FT_LBF: f64 = FT * LBF;
+const SLUG_PER_FT3: f64 = LBF / (FT * FT * FT * FT);
+
+fn xv15() -> Aircraft {
+    aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// One printed trim: what goes in.
+struct Trim {
+    speed_kt: u32,
+    u_ftps: f64,
+    w_ftps: f64,
+    induced_ftps: f64,
+    advance_ratio: f64,
+    elevator_deg: f64,
+    /// X, Y, Z of one rotor.
+    rotor_lbf: [f64; 3],
+}
+
+/// CR537 pages.
+const TRIMS: [Trim; 4] = [
+    Trim {
+        speed_kt: 40,
+        u_ftps: 67.45,
+        w_ftps: -2.967,
+        induced_ftps: 35.4892,
+        advance_ratio: 0.0875,
+        elevator_deg: 1.2741,
+        rotor_lbf: [-24.558, 367.068, -6091.711],
+    },
+    Trim {
+        speed_kt: 60,
+        u_ftps: 100.8,
+        w_ftps: -10.04,
+        induced_ftps: 24.0344,
+        advance_ratio: 0.1307,
+        elevator_deg: 2.3398,
+        rotor_lbf: [-82.594, 303.834, -5931.493],
+    },
+    Trim {
+        speed_kt: 80,
+        u_ftps: 133.2,
+        w_ftps: -21.93,
+        induced_ftps: 18.6232,
+        advance_ratio: 0.1728,
+        elevator_deg: 4.7105,
+        rotor_lbf: [-137.552, 243.065, -6177.508],
+    },
+    Trim {
+        speed_kt: 100,
+        u_ftps: 164.7,
+        w_ftps: -36.86,
+        induced_ftps: 16.6955,
+        advance_ratio: 0.2136,
+        elevator_deg: 10.1255,
+        rotor_lbf: [-123.945, 212.190, -6898.026],
+    },
+];
+
+/// Loads of every component of the airframe in one of the trims.
+struct Loads {
+    fuselage: Load,
+    free_wing: Load,
+    immersed_wing: Load,
+    pylons: Load,
+    spinners: Load,
+    tail: Load,
+    fins: Load,
+}
+
+fn both(half: Load) -> Load {
+    half + half.mirrored()
+}
+
+fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
+    let motion = Motion {
+        cg_m: Vec3::new(301.2 * FT / 12.0, 0.0, 81.65 * FT / 12.0),
+        airspeed_mps: Vec3::new(trim.u_ftps * FT, 0.0, trim.w_ftps * FT),
+        angular_rate_radps: Vec3::zero(),
+        density_kg_per_m3: 0.002_377 * SLUG_PER_FT3,
+    };
+    let mach = motion.airspeed_mps.norm() / 340.294;
+    let (flap_rad, elevator_rad) = (40.0 * DEG, trim.elevator_deg * DEG);
+    let [x, y, z] = trim.rotor_lbf;
+    let axis = Vec3::<Body>::new(0.0, 0.0, -1.0);
+    let wake = rotor_wake::rotor_wake(
+        &xv15.rotor_wake,
+        &rotor_wake::Inputs {
+            motion,
+            mast_tilt_rad: 0.0,
+            thrust_axes: Pair::both(axis),
+            induced_mps: Pair::both(trim.induced_ftps * FT),
+            rotor_force_n: Pair::both(sqrt(x * x + y * y + z * z) * LBF),
+            advance_ratio: Pair::both(trim.advance_ratio),
+            rotor_speed_radps: 589.0 * PI / 30.0,
+            rotor_radius_m: 12.5 * FT,
+        },
+    );
+    let half = wing_pylon::half_wing(
+        &xv15.wing_pylon,
+        &wing_pylon::Inputs {
+            motion,
+            mach,
+            alpha_rad: wake.wing_alpha_rad,
+            wake_mps: wake.wing_mps.right,
+            mast_tilt_rad: 0.0,
+            thrust_axis: axis,
+            induced_mps: trim.induced_ftps * FT,
+            pivot_m: xv15.rotors.pivot_m,
+            hub_from_cg_m: xv15.rotors.pivot_m.from_cg(motion.cg_m) + axis * (4.667 * FT),
+            flap_rad,
+            flaperon_rad: 0.0,
+        },
+    );
+    let tail_inputs = horizontal_stabilizer::Inputs {
+        motion,
+        mach,
+        wing_alpha_rad: wake.wing_alpha_rad,
+        wake_mps: wake.tail_mps,
+        mast_tilt_rad: 0.0,
+        flap_rad,
+        elevator_rad,
+    };
+    let settled = horizontal_stabilizer::State {
+        downwash_rad: xv15.horizontal_stabilizer.downwash(&tail_inputs),
+    };
+    let fin_inputs = vertical_stabilizers::Inputs { motion, mach, rudder_rad: 0.0 };
+    Loads {
+        fuselage: fuselage::fuselage(
+            &xv15.fuselage,
+            &fuselage::Inputs { motion, gear_extension_norm: 0.0 },
+        ),
+        free_wing: both(half.free_stream),
+        immersed_wing: both(half.immersed),
+        pylons: both(half.pylon),
+        spinners: both(half.spinner),
+        tail: horizontal_stabilizer::horizontal_stabilizer(
+            &xv15.horizontal_stabilizer,
+            &settled,
+            &tail_inputs,
+        )
+        .1,
+        fins: both(vertical_stabilizers::fin(&xv15.vertical_stabilizers, &fin_inputs)),
+    }
+}
+
+/// Prints X, Z and M beside the printed ones, and gives those that are further off than the tolerance.
+///
+/// The tolerance is a part of the printed force or moment as a whole, so that a small component beside
+/// a large one is not held to more digits than its print has.
+fn misses(name: &str, published: [[f64; 3]; 4], ours: [Load; 4], tolerance: f64) -> Vec<String> {
+    let mut missed = Vec::new();
+    for ((trim, published), load) in TRIMS.iter().zip(published).zip(ours) {
+        let force = load.force_n * (1.0 / LBF);
+        let ours = [force.x, force.z, load.moment_n_m.y / FT_LBF];
+        let size = sqrt(square(published[0]) + square(published[1]));
+        for ((axis, published), (ours, size)) in ["X", "Z", "M"]
+            .iter()
+            .zip(published)
+            .zip(ours.into_iter().zip([size, size, published[2].abs()]))
+        {
+            let off = (ours - published) / size;
+            println!(
+                "{name:9} {:3} kt {axis}: published {published:9.1}, ours {ours:9.1}, {:+6.1} %",
+                trim.speed_kt,
+                100.0 * off
+            );
+            if off.abs() > tolerance {
+                missed.push(format!("{axis} {}", trim.speed_kt));
+            }
+        }
+    }
+    missed
+}
+
+fn all(load: impl Fn(&Loads) -> Load) -> [Load; 4] {
+    let xv15 = xv15();
+    [0, 1, 2, 3].map(|i| load(&loads(&xv15, &TRIMS[i])))
+}
+
+/// The validation plan's band: what three digits of a table and the printed motion leave open.
+const FUSELAGE_TOLERANCE: f64 = 0.02;
+
+/// X misses: the printouts have 1.00 ft² of drag beside D_α, the published DLANG and D_POD make .65.
+#[test]
+fn val_fuselage_has_the_loads_of_the_trim_printouts() {
+    let published = [
+        [-15.850, -26.143, -598.516],
+        [-42.616, -21.253, -2107.491],
+        [-104.003, 44.085, -5308.990],
+        [-229.311, 196.522, -10466.281],
+    ];
+    let missed = misses("fuselage", published, all(|loads| loads.fuselage), FUSELAGE_TOLERANCE);
+    assert_eq!(missed, ["X 40", "X 60", "X 80", "X 100"]);
+}
+
+/// At 100 kt neither rotor wake nor rotor lift reaches the wing in the printouts.
+const WING_TOLERANCE: f64 = 0.01;
+
+/// Z and M miss at 40 to 80 kt by the lift that the rotors add there (K_FW, K_RW), whose equation is
+/// not at hand: 200, 297 and 189 lb, which is .37, .36 and .28 of the table's lift. M misses by 1.7 %
+/// at 100 kt, where the printed moment asks for a Cm of −.111 and the table has −.110. At 40 kt the area
+/// law besides takes 35 ft² out of the free stream, where the printout has all of it there.
+#[test]
+fn val_wing_in_free_stream_has_the_loads_of_the_trim_printouts() {
+    let published = [
+        [-350.068, -719.309, 451.962],
+        [-743.880, -1035.987, 478.278],
+        [-1154.732, -676.317, -322.313],
+        [-1523.955, 368.162, -2026.303],
+    ];
+    let missed = misses("wing", published, all(|loads| loads.free_wing), WING_TOLERANCE);
+    let known = ["X 40", "Z 40", "M 40", "X 60", "Z 60", "M 60", "X 80", "Z 80", "M 80", "M 100"];
+    assert_eq!(missed, known);
+}
+
+/// The printouts have no immersed area from 40 kt on; the area law taken has 17.6 ft² a side at 40 kt.
+#[test]
+fn val_the_wake_has_left_the_wing_at_60_kt() {
+    for (load, kt) in all(|loads| loads.immersed_wing).iter().zip([40, 60, 80, 100]) {
+        println!(
+            "immersed {kt} kt: X {:.1} Z {:.1} lb",
+            load.force_n.x / LBF,
+            load.force_n.z / LBF
+        );
+        assert!(kt == 40 || load.force_n.norm() == 0.0);
+    }
+}
+
+/// Nothing but a table of three digits and the printed motion in it.
+const PYLON_TOLERANCE: f64 = 0.01;
+
+#[test]
+fn val_pylons_have_the_loads_of_the_trim_printouts() {
+    let published = [
+        [-97.506, 86.379, 140.465],
+        [-180.801, 87.006, 267.775],
+        [-305.502, 118.605, 455.304],
+        [-466.540, 180.068, 695.411],
+    ];
+    let missed = misses("pylons", published, all(|loads| loads.pylons), PYLON_TOLERANCE);
+    assert_eq!(missed, [""; 0]);
+}
+
+/// The validation plan's band.
+const SPINNER_TOLERANCE: f64 = 0.03;
+
+#[test]
+fn val_spinners_have_the_loads_of_the_trim_printouts() {
+    let published = [
+        [-57.326, 32.686, 351.934],
+        [-144.608, 48.895, 891.124],
+        [-256.482, 78.063, 1581.401],
+        [-388.541, 126.332, 2394.830],
+    ];
+    let missed = misses("spinners", published, all(|loads| loads.spinners), SPINNER_TOLERANCE);
+    assert_eq!(missed, [""; 0]);
+}
+
+/// The validation plan's band.
+const TAIL_TOLERANCE: f64 = 0.05;
+
+#[test]
+fn val_tail_has_the_loads_of_the_trim_printouts() {
+    let published = [
+        [-3.860, -75.388, -1618.995],
+        [-9.946, -78.060, -1665.795],
+        [-10.673, 31.094, 689.586],
+        [26.079, 320.059, 6856.203],
+    ];
+    let missed = misses("tail", published, all(|loads| loads.tail), TAIL_TOLERANCE);
+    assert_eq!(missed, [""; 0]);
+}
+
+/// The validation plan gives the fins no band: their drag is 9 lb at most. Its sign at 40 kt comes from
+/// the printed sidewash factor of −.5.
+#[test]
+fn val_fins_push_forward_at_40_kt_as_in_the_trim_printouts() {
+    let published = [2.227, -1.595, -4.662, -8.512];
+    let ours = all(|loads| loads.fins).map(|load| load.force_n.x / LBF);
+    println!("fins X: published {published:?} lb, ours {ours:.2?} lb");
+    assert!(ours.iter().zip(published).all(|(ours, published)| ours * published > 0.0));
+}

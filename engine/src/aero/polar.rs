@@ -1,0 +1,164 @@
+//! Coefficients as the reports print them: one column for each flap setting and Mach number.
+//!
+//! # Equations
+//! ```text
+//! c(βm, δF, M, α): linear in each, held beyond the ends                          [CR536 4-I to 4-IV]
+//! a column that ends before ±180° goes over, within 10°, to the next wider one:
+//! high Mach number → low Mach number → upright mast
+//! ```
+//! # Assumptions
+//! Linear in mast tilt between the two that are printed, 0 and 90°. What lies beyond a column's print
+//! is an estimate, and continuous.
+
+use serde::Deserialize;
+
+use crate::math::{FRAC_PI_2, PI, clamp};
+use crate::table::Table1;
+
+const DEG: f64 = PI / 180.0;
+/// Within this angle beyond its print a column goes over to a wider one.
+const FADE_RAD: f64 = 10.0 * DEG;
+/// Flap settings of the columns; the flaperons droop with them to 0, 12.5, 25 and 47°.
+const FLAP_RAD: [f64; 4] = [0.0, 20.0 * DEG, 40.0 * DEG, 75.0 * DEG];
+/// Mach numbers of the columns; the first holds below, too.
+const MACH: [f64; 4] = [0.2, 0.4, 0.5, 0.6];
+
+/// The interval of four columns that holds `at`, and how far into it `at` lies.
+fn between(columns: &[f64; 4], at: f64) -> (usize, f64) {
+    let i = if at < columns[1] {
+        0
+    } else if at < columns[2] {
+        1
+    } else {
+        2
+    };
+    (i, clamp((at - columns[i]) / (columns[i + 1] - columns[i]), 0.0, 1.0))
+}
+
+/// A setting of the flaps between two columns.
+#[derive(Clone, Copy, Debug)]
+pub struct Flap {
+    column: usize,
+    beyond: f64,
+}
+
+impl Flap {
+    /// Where a flap angle lies among the columns.
+    pub fn new(flap_rad: f64) -> Self {
+        let (column, beyond) = between(&FLAP_RAD, flap_rad);
+        Self { column, beyond }
+    }
+}
+
+/// One table over angle of attack for each flap setting.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ByFlap {
+    /// Flaps up.
+    pub flap_0: Table1,
+    /// 20/12.5.
+    pub flap_20: Table1,
+    /// 40/25.
+    pub flap_40: Table1,
+    /// 75/47.
+    pub flap_75: Table1,
+}
+
+impl ByFlap {
+    /// By setting, in order.
+    pub fn columns(&self) -> [&Table1; 4] {
+        [&self.flap_0, &self.flap_20, &self.flap_40, &self.flap_75]
+    }
+
+    /// Why a table cannot be used, if so.
+    pub fn fault(&self) -> Option<&'static str> {
+        self.columns().into_iter().find_map(Table1::fault)
+    }
+}
+
+/// One table over an angle for each Mach number above .2.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ByMach {
+    /// .4.
+    pub mach_0_4: Table1,
+    /// .5.
+    pub mach_0_5: Table1,
+    /// .6.
+    pub mach_0_6: Table1,
+}
+
+impl ByMach {
+    /// The value at an angle, where `slow` is the one at Mach number .2 and below.
+    pub fn at(&self, mach: f64, angle_rad: f64, slow: f64) -> f64 {
+        if mach <= MACH[0] {
+            return slow;
+        }
+        let column = |i: usize| match i {
+            0 => slow,
+            1 => self.mach_0_4.at_or(angle_rad, slow, FADE_RAD),
+            2 => self.mach_0_5.at_or(angle_rad, slow, FADE_RAD),
+            _ => self.mach_0_6.at_or(angle_rad, slow, FADE_RAD),
+        };
+        let (i, t) = between(&MACH, mach);
+        let low = column(i);
+        low + t * (column(i + 1) - low)
+    }
+
+    /// The same for a table that is odd in its angle and printed for positive ones.
+    pub fn odd_at(&self, mach: f64, angle_rad: f64, slow: f64) -> f64 {
+        if angle_rad < 0.0 {
+            -self.at(mach, -angle_rad, -slow)
+        } else {
+            self.at(mach, angle_rad, slow)
+        }
+    }
+
+    /// By Mach number, in order.
+    pub fn columns(&self) -> [&Table1; 3] {
+        [&self.mach_0_4, &self.mach_0_5, &self.mach_0_6]
+    }
+
+    /// Why a table cannot be used, if so.
+    pub fn fault(&self) -> Option<&'static str> {
+        self.columns().into_iter().find_map(Table1::fault)
+    }
+}
+
+/// A coefficient of wing and pylon over ±180° of angle of attack.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Polar {
+    /// Masts upright.
+    pub upright: ByFlap,
+    /// As an aeroplane, at Mach number .2 and below.
+    pub aeroplane: ByFlap,
+    /// As an aeroplane, flaps up.
+    pub aeroplane_by_mach: ByMach,
+}
+
+impl Polar {
+    /// The coefficient.
+    pub fn at(&self, mast_tilt_rad: f64, flap: Flap, mach: f64, alpha_rad: f64) -> f64 {
+        let level = clamp(mast_tilt_rad / FRAC_PI_2, 0.0, 1.0);
+        let column = |i: usize| {
+            let upright = self.upright.columns()[i].at(alpha_rad);
+            if level <= 0.0 {
+                return upright;
+            }
+            let slow = self.aeroplane.columns()[i].at_or(alpha_rad, upright, FADE_RAD);
+            let fast = if i == 0 { self.aeroplane_by_mach.at(mach, alpha_rad, slow) } else { slow };
+            upright + level * (fast - upright)
+        };
+        let low = column(flap.column);
+        if flap.beyond > 0.0 { low + flap.beyond * (column(flap.column + 1) - low) } else { low }
+    }
+
+    /// Why a table cannot be used, if so.
+    pub fn fault(&self) -> Option<&'static str> {
+        self.upright
+            .fault()
+            .or_else(|| self.aeroplane.fault())
+            .or_else(|| self.aeroplane_by_mach.fault())
+    }
+}
