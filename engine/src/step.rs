@@ -32,10 +32,7 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
     }
 
     // Sampled once, held through the tick.
-    let sensed = sense(state, &inputs.world);
-    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &pilot, &sensed, &inputs.world);
-    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
-    let sampled = State { fcc, actuators, ..held };
+    let (sampled, commands) = sample(aircraft, state, &held, &inputs.world);
 
     // Integrated across the tick.
     let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world);
@@ -46,8 +43,34 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
     (next, outputs)
 }
 
+/// Where everything is heading from a state: what moves once a tick after one tick, what moves all the
+/// time after a tick at the rates of the state itself, which are kept in `rate`.
+///
+/// This is no flight. It is what trim and linearisation look at, where all parts are wanted at the
+/// same moment.
+pub fn heading(aircraft: &Aircraft, state: &State, world: &World) -> (State, Outputs) {
+    let (sampled, commands) = sample(aircraft, state, state, world);
+    let blocks = Blocks::evaluate(aircraft, state, world);
+    let plant = advance(&state.plant, &blocks.rate, &blocks.rate, &blocks.gear);
+    let outputs = Outputs { commands, ..blocks.outputs(state) };
+    (State { plant, rate: blocks.rate, ..sampled }, outputs)
+}
+
+/// `held` with computer and actuators a tick after those of `state`, and the computer's commands.
+fn sample(
+    aircraft: &Aircraft,
+    state: &State,
+    held: &State,
+    world: &World,
+) -> (State, fcc::mixer::Commands) {
+    let sensed = sense(state, world);
+    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &held.cockpit, &sensed, world);
+    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
+    (State { fcc, actuators, ..*held }, commands)
+}
+
 /// What the flight control computer's sensors read. Ideal: no lag, no noise.
-fn sense(state: &State, world: &World) -> fcc::Sensed {
+pub(crate) fn sense(state: &State, world: &World) -> fcc::Sensed {
     let plant = &state.plant;
     let airspeed_mps = (plant.velocity_mps - world.wind_mps).norm();
     let air = air(plant, world);
