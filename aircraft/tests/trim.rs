@@ -11,3 +11,16 @@ fn look() {
         }
     }
 }
+#[test]
+fn lin() {
+    let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+    for (tilt, kt, flap, scas) in [(0.0,0.0,2,0),(0.,0.,2,1),(0.0,80.0,2,0),(60.,140.,1,0),(90.,180.,0,0),(90.,180.,0,1)] {
+        let target = Target { mast_tilt_rad: f64::to_radians(tilt), airspeed_mps: kt*1852./3600., flap_detent: flap, scas_on: scas, rpm_select: if tilt==90. {2} else {0}, ..Target::default() };
+        let t = trim(&xv15, &target).unwrap();
+        let l = engine::linearize::linearize(&xv15, &t, &target.world);
+        println!("--- {tilt} {kt} scas {scas}: {} states", l.states.len());
+        for m in engine::modes::modes(&l, target.airspeed_mps) {
+            println!("{:28} {:9.4} {:+9.4}j ω {:7.3} ζ {:6.3} fast {} {}", m.name, m.eigenvalue.re, m.eigenvalue.im, m.frequency_radps(), m.damping(), m.fast, m.state);
+        }
+    }
+}
