@@ -114,11 +114,15 @@ impl Matrix {
 
     /// x of A·x = b for a square A. Where A is singular, the unknown that it says nothing of is 0.
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+        let largest = self.values.iter().fold(0.0, |most, value| max(most, value.abs()));
+        self.eliminate(b, largest * 1e-14)
+    }
+
+    /// The same, where a pivot counts as zero that is not larger than `nothing`.
+    fn eliminate(&self, b: &[f64], nothing: f64) -> Vec<f64> {
         let n = self.rows;
         let mut a = self.clone();
         let mut x = b.to_vec();
-        let largest = self.values.iter().fold(0.0, |most, value| max(most, value.abs()));
-        let nothing = largest * 1e-14;
         for k in 0..n {
             let mut pivot = k;
             for row in k + 1..n {
@@ -163,7 +167,7 @@ impl Matrix {
             both[(n + i, i)] = s.im;
         }
         let parts: Vec<f64> = b.iter().map(|b| b.re).chain(b.iter().map(|b| b.im)).collect();
-        let x = both.solve(&parts);
+        let x = both.eliminate(&parts, 0.0);
         (0..n).map(|i| Complex { re: x[i], im: x[n + i] }).collect()
     }
 
@@ -173,17 +177,20 @@ impl Matrix {
         let beside = 1e-9 * max(1.0, eigenvalue.abs());
         let s = Complex { re: eigenvalue.re + beside, im: eigenvalue.im };
         let n = self.rows;
+        let mut balanced = self.clone();
+        let scales = balanced.balance();
         // Not along a symmetry of the matrix, or half of the vectors would not be found.
         let mut v: Vec<Complex> =
             (0..n).map(|i| Complex { re: 1.0 + 0.37 * ((i * 7 % 11) as f64), im: 0.0 }).collect();
         for _ in 0..3 {
-            v = self.solve_shifted(s, &v);
+            v = balanced.solve_shifted(s, &v);
             let norm = sqrt(v.iter().map(|v| square(v.abs())).sum());
             for v in &mut v {
                 *v = Complex { re: v.re / norm, im: v.im / norm };
             }
         }
-        v
+        let scaled = v.iter().zip(&scales);
+        scaled.map(|(v, scale)| Complex { re: v.re * scale, im: v.im * scale }).collect()
     }
 
     /// All eigenvalues of a square matrix, the slowest first, a pair with its positive imaginary part
@@ -194,17 +201,15 @@ impl Matrix {
         work.reduce_to_hessenberg();
         let mut found = work.francis();
         found.sort_by(|a, b| {
-            a.abs()
-                .total_cmp(&b.abs())
-                .then(a.re.total_cmp(&b.re))
-                .then(b.im.total_cmp(&a.im))
+            a.abs().total_cmp(&b.abs()).then(a.re.total_cmp(&b.re)).then(b.im.total_cmp(&a.im))
         });
         found
     }
 
-    /// Scales by powers of two so that rows and columns are alike in size.
-    fn balance(&mut self) {
+    /// D⁻¹·A·D with D of powers of two, so that rows and columns are alike in size; gives D.
+    fn balance(&mut self) -> Vec<f64> {
         let n = self.rows;
+        let mut scales = vec![1.0; n];
         let mut done = false;
         while !done {
             done = true;
@@ -228,6 +233,7 @@ impl Matrix {
                 }
                 if (column + row) / factor < 0.95 * sum {
                     done = false;
+                    scales[i] *= factor;
                     for j in 0..n {
                         self[(i, j)] /= factor;
                     }
@@ -237,6 +243,7 @@ impl Matrix {
                 }
             }
         }
+        scales
     }
 
     fn reduce_to_hessenberg(&mut self) {
@@ -423,8 +430,7 @@ mod tests {
             }
         }
         let found = a.eigenvalues();
-        let expected =
-            [(0.5, 0.1), (0.5, -0.1), (-1.0, 0.0), (-2.0, 0.0), (3.0, 4.0), (3.0, -4.0)];
+        let expected = [(0.5, 0.1), (0.5, -0.1), (-1.0, 0.0), (-2.0, 0.0), (3.0, 4.0), (3.0, -4.0)];
         for (found, (re, im)) in found.iter().zip(expected) {
             assert!((found.re - re).abs() < 1e-9 && (found.im - im).abs() < 1e-9, "{found:?}");
         }

@@ -144,9 +144,10 @@ impl<'a> About<'a> {
         let numbers = base.number_names();
         let mut inner = inner_states(&numbers);
         let moves = |name: &str| {
-            let surface = ["collective", "cyclic", "elevator", "flaperon", "rudder"]
-                .iter()
-                .any(|surface| name.strip_prefix("actuators.").is_some_and(|n| n.starts_with(surface)));
+            let surface =
+                ["collective", "cyclic", "elevator", "flaperon", "rudder"].iter().any(|surface| {
+                    name.strip_prefix("actuators.").is_some_and(|n| n.starts_with(surface))
+                });
             surface
                 || name == "plant.rotor_speed_radps"
                 || name.starts_with("plant.engines")
@@ -179,8 +180,7 @@ impl<'a> About<'a> {
         let heading_rad = plant.attitude.euler().heading_rad;
         plant.attitude =
             Attitude::from_euler(Euler { roll_rad: x[6], pitch_rad: x[7], heading_rad });
-        plant.velocity_mps =
-            plant.attitude.ned_from_body() * Vec3::<Body>::new(x[0], x[1], x[2]);
+        plant.velocity_mps = plant.attitude.ned_from_body() * Vec3::<Body>::new(x[0], x[1], x[2]);
         plant.angular_rate_radps = Vec3::new(x[3], x[4], x[5]);
         let mut number = 0;
         state.each_number(|value| {
@@ -222,17 +222,21 @@ fn observed(x: &[f64], outputs: &Outputs) -> [f64; OUTPUTS.len()] {
     let power_w = outputs.rotors.map(|rotor| rotor.power_w).sum();
     let mut y = [0.0; OUTPUTS.len()];
     y[..RIGID.len()].copy_from_slice(&x[..RIGID.len()]);
-    y[RIGID.len()..]
-        .copy_from_slice(&[force.x, force.y, force.z, outputs.rotor_speed_radps, power_w]);
+    y[RIGID.len()..].copy_from_slice(&[
+        force.x,
+        force.y,
+        force.z,
+        outputs.rotor_speed_radps,
+        power_w,
+    ]);
     y
 }
 
 impl Linear {
     /// G(jω) from an input to an output.
     pub fn response(&self, input: usize, output: usize, omega_radps: f64) -> Complex {
-        let b: Vec<Complex> = (0..self.a.rows())
-            .map(|row| Complex { re: self.b[(row, input)], im: 0.0 })
-            .collect();
+        let b: Vec<Complex> =
+            (0..self.a.rows()).map(|row| Complex { re: self.b[(row, input)], im: 0.0 }).collect();
         let x = self.a.solve_shifted(Complex { re: 0.0, im: omega_radps }, &b);
         let c = self.c.row(output);
         Complex {

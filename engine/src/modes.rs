@@ -165,9 +165,7 @@ fn name(found: &[(Complex, Part)], i: usize, hovers: bool) -> &'static str {
     }
     // How many slower ones of the same kind and group there are, and how many in all.
     let alike = |other: &(Complex, Part)| {
-        other.1.group == part.group
-            && (other.0.im > 0.0) == swings
-            && !is_fast(other.0, &other.1)
+        other.1.group == part.group && (other.0.im > 0.0) == swings && !is_fast(other.0, &other.1)
     };
     let slower = found[..i].iter().filter(|other| alike(other)).count();
     let all = found.iter().filter(|other| alike(other)).count();

@@ -199,7 +199,11 @@ impl core::fmt::Display for Failure {
                 write!(f, "no steady flight found: {of} is left with {residual:.2e} (SI)")
             }
             Self::Beyond { what, wanted_norm, .. } => {
-                write!(f, "beyond the aircraft: {what} at {:.0} % of its limit", 100.0 * wanted_norm)
+                write!(
+                    f,
+                    "beyond the aircraft: {what} at {:.0} % of its limit",
+                    100.0 * wanted_norm
+                )
             }
             Self::Senseless(what) => f.write_str(what),
         }
@@ -419,7 +423,8 @@ impl<'a> Problem<'a> {
         outer[PITCH] = near.report.pitch_rad;
         outer[STICK_AFT] = near.state.cockpit.stick_aft_norm;
         outer[COLLECTIVE] = near.report.collective_rad;
-        outer[POWER] = max(plant.engines.left.power_w, plant.engines.right.power_w) / self.rated_w();
+        outer[POWER] =
+            max(plant.engines.left.power_w, plant.engines.right.power_w) / self.rated_w();
         outer[CLIMB] = near.report.climb_mps;
         if !self.symmetric {
             outer[ROLL] = near.report.roll_rad;
@@ -484,7 +489,8 @@ impl<'a> Problem<'a> {
         let track_rad = target.heading_rad - off_track_rad;
         let through_air =
             Vec3::<Ned>::new(level_mps * cos(track_rad), level_mps * sin(track_rad), -climb_mps);
-        let power_w = self.running.map(|runs| if runs { trial[POWER] * self.rated_w() } else { 0.0 });
+        let power_w =
+            self.running.map(|runs| if runs { trial[POWER] * self.rated_w() } else { 0.0 });
         let mut state = State {
             cockpit: cockpit::State {
                 stick_aft_norm: trial[STICK_AFT],
@@ -547,8 +553,7 @@ impl<'a> Problem<'a> {
             yaw: pilot.scas_on != 0 && !world.failed(failures::SCAS_YAW),
         };
         let (_, augmented) = scas::update(&aircraft.fcc.scas, &centred, &sticks, on, &sensed);
-        let commands =
-            mixer::mix(&aircraft.fcc.mixer, &augmented, collective_rad, &pilot, &sensed);
+        let commands = mixer::mix(&aircraft.fcc.mixer, &augmented, collective_rad, &pilot, &sensed);
         state.actuators = actuators::settled(&aircraft.actuators, &state.actuators, &commands);
         let lever_m = pilot.collective_norm * travel.collective_m;
         let from_lever_rad =
@@ -646,8 +651,7 @@ impl<'a> Problem<'a> {
             let wanted: Vec<f64> = residual.iter().map(|r| -r).collect();
             let mut change = self.jacobian(&trial, &unknown).solve(&wanted);
             let over = unknown.iter().zip(&change).fold(1.0, |over, (&i, change)| {
-                let most =
-                    if i < OUTER { STEP_MAX[i] } else { max(0.3 * trial[i].abs(), 5.0) };
+                let most = if i < OUTER { STEP_MAX[i] } else { max(0.3 * trial[i].abs(), 5.0) };
                 max(over, change.abs() / most)
             });
             change.iter_mut().for_each(|change| *change /= over);
@@ -772,7 +776,10 @@ fn beyond(
     let lowest_rad = governor.collective_rad_min.at(state.actuators.mast_tilt_rad.mean());
     let (low, high) = (lowest_rad, governor.collective_rad_max);
     if report.collective_rad < low - 1e-9 || report.collective_rad > high + 1e-9 {
-        return Some(("collective", report.collective_rad / if report.collective_rad < low { low } else { high }));
+        return Some((
+            "collective",
+            report.collective_rad / if report.collective_rad < low { low } else { high },
+        ));
     }
     (trim.outputs.landing_gear.main.right.push_n > 0.0).then_some(("height over the ground", 1.0))
 }
