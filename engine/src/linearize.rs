@@ -28,7 +28,7 @@ use crate::inputs::World;
 use crate::math::max;
 use crate::outputs::EulerRate;
 use crate::state::State;
-use crate::trim::{Trim, accelerations, inner_states, numbers};
+use crate::trim::{Trim, accelerations, inner_states, numbers, set_numbers};
 use crate::{Aircraft, Outputs, STEP_S, step};
 
 /// Names of the rigid body's states, the first ones of every system.
@@ -182,13 +182,7 @@ impl<'a> About<'a> {
             Attitude::from_euler(Euler { roll_rad: x[6], pitch_rad: x[7], heading_rad });
         plant.velocity_mps = plant.attitude.ned_from_body() * Vec3::<Body>::new(x[0], x[1], x[2]);
         plant.angular_rate_radps = Vec3::new(x[3], x[4], x[5]);
-        let mut number = 0;
-        state.each_number(|value| {
-            if let Ok(i) = self.inner.binary_search(&number) {
-                *value = x[RIGID.len() + i];
-            }
-            number += 1;
-        });
+        set_numbers(&mut state, &self.inner, |i| x[RIGID.len() + i]);
         let travel = &self.aircraft.fcc.travel;
         let pilot = &mut state.cockpit;
         pilot.stick_aft_norm += u[0] / travel.longitudinal_stick_m;
@@ -243,6 +237,48 @@ impl Linear {
             re: c.iter().zip(&x).map(|(c, x)| c * x.re).sum::<f64>() + self.d[(output, input)],
             im: c.iter().zip(&x).map(|(c, x)| c * x.im).sum(),
         }
+    }
+
+    /// The system whose fast states follow at once: the derivatives of the textbooks.
+    ///
+    /// ```text
+    /// 0 = A21·x1 + A22·x2 + B2·u    A = A11 − A12·A22⁻¹·A21    B = B1 − A12·A22⁻¹·B2, and so on
+    /// ```
+    #[must_use]
+    pub fn quasi_steady(&self, fast: impl Fn(&str) -> bool) -> Self {
+        let split = |wanted: bool| -> Vec<usize> {
+            (0..self.states.len()).filter(|&i| fast(&self.states[i]) == wanted).collect()
+        };
+        let (slow, quick) = (split(false), split(true));
+        let a22 = self.a.part(&quick);
+        // What the fast states do per unit of each slow state and input.
+        let answer = |cause: &dyn Fn(usize) -> f64| {
+            let minus: Vec<f64> = quick.iter().map(|&row| -cause(row)).collect();
+            a22.solve(&minus)
+        };
+        let mut reduced = self.without(&fast);
+        let total = |own: f64, row: &dyn Fn(usize) -> f64, answer: &[f64]| {
+            own + quick.iter().zip(answer).map(|(&k, x)| row(k) * x).sum::<f64>()
+        };
+        for (new, &old) in slow.iter().enumerate() {
+            let x2 = answer(&|row| self.a[(row, old)]);
+            for (row, &i) in slow.iter().enumerate() {
+                reduced.a[(row, new)] = total(self.a[(i, old)], &|k| self.a[(i, k)], &x2);
+            }
+            for y in 0..self.c.rows() {
+                reduced.c[(y, new)] = total(self.c[(y, old)], &|k| self.c[(y, k)], &x2);
+            }
+        }
+        for input in 0..self.b.columns() {
+            let x2 = answer(&|row| self.b[(row, input)]);
+            for (row, &i) in slow.iter().enumerate() {
+                reduced.b[(row, input)] = total(self.b[(i, input)], &|k| self.a[(i, k)], &x2);
+            }
+            for y in 0..self.c.rows() {
+                reduced.d[(y, input)] = total(self.d[(y, input)], &|k| self.c[(y, k)], &x2);
+            }
+        }
+        reduced
     }
 
     /// The system without some of its states, which stand still in it.
@@ -305,6 +341,17 @@ mod tests {
         assert!((resonant.abs() - 0.5).abs() < 1e-14);
         assert!((resonant.arg_rad() + 0.5 * PI).abs() < 1e-14);
         assert!((decibels(resonant.abs()) + 6.0206).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_state_that_follows_at_once_leaves_its_gain() {
+        // ẋ = −x + 3·s, ṡ = 100·(u − s): x ends at 3·u.
+        let mut linear = spring();
+        linear.a = Matrix::from_rows(&[&[-1.0, 3.0], &[0.0, -100.0]]);
+        linear.b = Matrix::from_rows(&[&[0.0], &[100.0]]);
+        let slow = linear.quasi_steady(|state| state == "x_mps");
+        assert_eq!(slow.states, ["x_m"]);
+        assert!((slow.a[(0, 0)] + 1.0).abs() < 1e-15 && (slow.b[(0, 0)] - 3.0).abs() < 1e-15);
     }
 
     #[test]

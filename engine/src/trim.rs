@@ -217,6 +217,7 @@ impl core::error::Error for Failure {}
 /// # Errors
 /// When there is none, or the aircraft cannot fly it.
 pub fn trim(aircraft: &Aircraft, target: &Target) -> Result<Trim, Failure> {
+    let aircraft = &unlimited(aircraft);
     let mut best = None;
     for pitch_rad in [guess_pitch(target), 0.0, 0.14, -0.14] {
         let problem = Problem::new(aircraft, target)?;
@@ -239,12 +240,27 @@ pub fn trim(aircraft: &Aircraft, target: &Target) -> Result<Trim, Failure> {
 /// # Errors
 /// When there is none, or the aircraft cannot fly it.
 pub fn trim_near(aircraft: &Aircraft, target: &Target, near: &Trim) -> Result<Trim, Failure> {
-    let problem = Problem::new(aircraft, target)?;
+    let unlimited = unlimited(aircraft);
+    let problem = Problem::new(&unlimited, target)?;
     let guess = problem.like(near);
     match problem.solve(guess) {
         Err(Failure::Unsteady { .. }) => trim(aircraft, target),
         done => done,
     }
+}
+
+/// The engines give the torque that is needed: where that is too much is told afterwards.
+fn unlimited(aircraft: &Aircraft) -> Unlimited {
+    let torque_n_m_max = aircraft.engines.torque_n_m_max;
+    let mut aircraft = aircraft.clone();
+    aircraft.engines.torque_n_m_max = 1e9;
+    Unlimited { aircraft, torque_n_m_max }
+}
+
+/// An aircraft whose engines know no limit of torque, and that limit.
+struct Unlimited {
+    aircraft: Aircraft,
+    torque_n_m_max: f64,
 }
 
 /// Slow flight takes about level attitudes, an aeroplane some incidence at low speed.
@@ -298,6 +314,7 @@ const SETTLING_TICKS: usize = 150;
 
 struct Problem<'a> {
     aircraft: &'a Aircraft,
+    torque_n_m_max: f64,
     target: &'a Target,
     symmetric: bool,
     running: Pair<bool>,
@@ -345,8 +362,36 @@ pub(crate) fn numbers(state: &State) -> Vec<f64> {
     numbers
 }
 
+/// The state after some ticks in which only the plant's inner states move, as on a test stand:
+/// the body, the drive and all controls are held.
+pub fn settle(aircraft: &Aircraft, state: &State, world: &World, ticks: usize) -> State {
+    let inner = inner_states(&state.number_names());
+    let mut state = *state;
+    for _ in 0..ticks {
+        let next = numbers(&step::heading(aircraft, &state, world).0);
+        set_numbers(&mut state, &inner, |i| next[inner[i]]);
+    }
+    state
+}
+
+/// Sets the numbers at these places, which ascend; what is not finite stays as it was.
+pub(crate) fn set_numbers(state: &mut State, places: &[usize], value: impl Fn(usize) -> f64) {
+    let (mut number, mut i) = (0, 0);
+    state.each_number(|place| {
+        if places.get(i) == Some(&number) {
+            let value = value(i);
+            if value.is_finite() {
+                *place = value;
+            }
+            i += 1;
+        }
+        number += 1;
+    });
+}
+
 impl<'a> Problem<'a> {
-    fn new(aircraft: &'a Aircraft, target: &'a Target) -> Result<Self, Failure> {
+    fn new(unlimited: &'a Unlimited, target: &'a Target) -> Result<Self, Failure> {
+        let Unlimited { aircraft, torque_n_m_max } = unlimited;
         if !(target.airspeed_mps.is_finite() && target.airspeed_mps >= 0.0) {
             return Err(Failure::Senseless("an airspeed is zero or more"));
         }
@@ -381,7 +426,19 @@ impl<'a> Problem<'a> {
             left: !target.world.failed(failures::ENGINE_LEFT),
             right: !target.world.failed(failures::ENGINE_RIGHT),
         };
-        Ok(Self { aircraft, target, symmetric, running, outer, equations, inner, twins, names })
+        let torque_n_m_max = *torque_n_m_max;
+        Ok(Self {
+            aircraft,
+            torque_n_m_max,
+            target,
+            symmetric,
+            running,
+            outer,
+            equations,
+            inner,
+            twins,
+            names,
+        })
     }
 
     /// The rated power of one engine: the unit of power here.
@@ -438,19 +495,9 @@ impl<'a> Problem<'a> {
     }
 
     /// The inner states after a while with everything else held.
-    fn settled(&self, outer: &[f64; OUTER], mut state: State) -> Trial {
-        for _ in 0..SETTLING_TICKS {
-            let next = step::heading(self.aircraft, &state, &self.target.world).0;
-            let settled = numbers(&next);
-            let mut number = 0;
-            state.each_number(|value| {
-                if self.inner.contains(&number) && settled[number].is_finite() {
-                    *value = settled[number];
-                }
-                number += 1;
-            });
-            self.mirror(&mut state);
-        }
+    fn settled(&self, outer: &[f64; OUTER], state: State) -> Trial {
+        let mut state = settle(self.aircraft, &state, &self.target.world, SETTLING_TICKS);
+        self.mirror(&mut state);
         let inner = numbers(&state);
         let mut trial = outer.to_vec();
         trial.extend(self.inner.iter().map(|&i| inner[i]));
@@ -460,13 +507,8 @@ impl<'a> Problem<'a> {
     fn mirror(&self, state: &mut State) {
         if !self.twins.is_empty() {
             let all = numbers(state);
-            let mut number = 0;
-            state.each_number(|value| {
-                if let Some((_, right)) = self.twins.iter().find(|(left, _)| *left == number) {
-                    *value = all[*right];
-                }
-                number += 1;
-            });
+            let left: Vec<usize> = self.twins.iter().map(|(left, _)| *left).collect();
+            set_numbers(state, &left, |i| all[self.twins[i].1]);
         }
     }
 
@@ -517,13 +559,7 @@ impl<'a> Problem<'a> {
         state.actuators.mast_tilt_rad = Pair::both(target.mast_tilt_rad);
         self.set_controls(&mut state, trial[COLLECTIVE]);
         if let Some(inner) = inner {
-            let mut number = 0;
-            state.each_number(|value| {
-                if let Some(i) = self.inner.iter().position(|&place| place == number) {
-                    *value = inner[i];
-                }
-                number += 1;
-            });
+            set_numbers(&mut state, &self.inner, |i| inner[i]);
             self.mirror(&mut state);
         }
         state
@@ -709,7 +745,8 @@ impl<'a> Problem<'a> {
         let state = state.without_negative_zeros();
         let report = Report::new(aircraft, &state, &outputs, residual);
         let trim = Trim { state, outputs, report };
-        match beyond(aircraft, &trim, next.rate.engines.power_w_per_s) {
+        let power_w_per_s = next.rate.engines.power_w_per_s;
+        match beyond(aircraft, self.torque_n_m_max, &trim, power_w_per_s) {
             Some((what, wanted_norm)) => {
                 Err(Failure::Beyond { what, wanted_norm, trim: Box::new(trim) })
             }
@@ -750,6 +787,7 @@ impl<'a> Problem<'a> {
 /// What the aircraft cannot do of a steady flight, and how much is asked of it.
 fn beyond(
     aircraft: &Aircraft,
+    torque_n_m_max: f64,
     trim: &Trim,
     power_w_per_s: Pair<f64>,
 ) -> Option<(&'static str, f64)> {
@@ -762,6 +800,11 @@ fn beyond(
     }
     if -lag_w > 1e-3 * aircraft.engines.rated_power_w {
         return Some(("idle power", engine_w / (engine_w - lag_w)));
+    }
+    // The engines give up to this in a hurry; what a mast may bear for long is for the pilot to mind.
+    let torque_norm = engine_w / max(state.plant.rotor_speed_radps, 1.0) / torque_n_m_max;
+    if torque_norm > engines::TORQUE_NORM_MAX {
+        return Some(("mast torque", torque_norm));
     }
     for (what, norm) in [
         ("longitudinal stick", pilot.stick_aft_norm),
