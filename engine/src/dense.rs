@@ -122,32 +122,37 @@ impl Matrix {
     fn eliminate(&self, b: &[f64], nothing: f64) -> Vec<f64> {
         let n = self.rows;
         let mut a = self.clone();
-        let mut x = b.to_vec();
+        let mut b = b.to_vec();
+        // The column of each row's pivot; a column without one leaves its rows to the next.
+        let mut pivots = Vec::with_capacity(n);
         for k in 0..n {
-            let mut pivot = k;
-            for row in k + 1..n {
+            let top = pivots.len();
+            let mut pivot = top;
+            for row in top..n {
                 if a[(row, k)].abs() > a[(pivot, k)].abs() {
                     pivot = row;
                 }
             }
-            if a[(pivot, k)].abs() <= nothing {
+            if top == n || a[(pivot, k)].abs() <= nothing {
                 continue;
             }
-            a.swap_rows(k, pivot);
-            x.swap(k, pivot);
-            for row in k + 1..n {
-                let factor = a[(row, k)] / a[(k, k)];
+            a.swap_rows(top, pivot);
+            b.swap(top, pivot);
+            for row in top + 1..n {
+                let factor = a[(row, k)] / a[(top, k)];
                 if factor != 0.0 {
                     for column in k..n {
-                        a[(row, column)] -= factor * a[(k, column)];
+                        a[(row, column)] -= factor * a[(top, column)];
                     }
-                    x[row] -= factor * x[k];
+                    b[row] -= factor * b[top];
                 }
             }
+            pivots.push(k);
         }
-        for k in (0..n).rev() {
-            let known: f64 = (k + 1..n).map(|column| a[(k, column)] * x[column]).sum();
-            x[k] = if a[(k, k)].abs() <= nothing { 0.0 } else { (x[k] - known) / a[(k, k)] };
+        let mut x = vec![0.0; n];
+        for (row, &k) in pivots.iter().enumerate().rev() {
+            let known: f64 = (k + 1..n).map(|column| a[(row, column)] * x[column]).sum();
+            x[k] = (b[row] - known) / a[(row, k)];
         }
         x
     }
@@ -404,6 +409,13 @@ mod tests {
         for (found, expected) in x.iter().zip([1.0, 2.0, 3.0]) {
             assert!((found - expected).abs() < 1e-14, "{x:?}");
         }
+    }
+
+    #[test]
+    fn what_a_singular_system_does_not_say_is_zero() {
+        let a = Matrix::from_rows(&[&[1.0, 0.0, 2.0], &[0.0, 0.0, 0.0], &[1.0, 0.0, -1.0]]);
+        let x = a.solve(&[5.0, 0.0, -1.0]);
+        assert!((x[0] - 1.0).abs() < 1e-15 && x[1] == 0.0 && (x[2] - 2.0).abs() < 1e-15);
     }
 
     /// Of a companion matrix they are the polynomial's roots: −1, −2, 3 ± 4i, 0.5 ± 0.1i.

@@ -30,14 +30,23 @@ pub enum Band {
     Between(f64, f64),
 }
 
+/// Why there is no number of ours.
+#[derive(Clone)]
+pub enum Missing {
+    /// The aircraft flew it, ours cannot: a miss.
+    Cannot(String),
+    /// Nobody has asked ours yet.
+    NotYet(&'static str),
+}
+
 /// One number of a case.
 pub struct Row {
     /// Which number.
     pub what: String,
     /// As published.
     pub published: f64,
-    /// Ours; nothing where it cannot be computed, which the reason tells.
-    pub ours: Result<f64, String>,
+    /// Ours, or why there is none.
+    pub ours: Result<f64, Missing>,
     /// What counts as agreement.
     pub band: Band,
     /// Digits behind the point.
@@ -83,10 +92,11 @@ impl Row {
 
     fn verdict(&self) -> Verdict {
         let (low, high) = self.limits();
-        match self.ours {
-            Ok(ours) if ours >= low && ours <= high => Verdict::Pass,
+        match &self.ours {
+            Ok(ours) if *ours >= low && *ours <= high => Verdict::Pass,
             Ok(_) => Verdict::Miss,
-            Err(_) => Verdict::NotYet,
+            Err(Missing::Cannot(_)) => Verdict::Miss,
+            Err(Missing::NotYet(_)) => Verdict::NotYet,
         }
     }
 
@@ -106,7 +116,8 @@ impl Row {
                 number(*ours, digits),
                 format!("{:+.digits$}", zeroed(ours - self.published, digits)),
             ),
-            Err(why) => (why.clone(), String::new()),
+            Err(Missing::Cannot(why)) => (why.clone(), String::new()),
+            Err(Missing::NotYet(why)) => ((*why).to_owned(), String::new()),
         };
         let verdict = match self.verdict() {
             Verdict::Pass => "pass",
@@ -163,7 +174,7 @@ impl Case {
 }
 
 /// Our number, or why there is none.
-pub struct Ours(Result<f64, String>);
+pub struct Ours(Result<f64, Missing>);
 
 impl From<f64> for Ours {
     fn from(value: f64) -> Self {
@@ -173,7 +184,13 @@ impl From<f64> for Ours {
 
 impl From<Result<f64, String>> for Ours {
     fn from(value: Result<f64, String>) -> Self {
-        Self(value)
+        Self(value.map_err(Missing::Cannot))
+    }
+}
+
+impl From<Missing> for Ours {
+    fn from(none: Missing) -> Self {
+        Self(Err(none))
     }
 }
 
@@ -187,7 +204,7 @@ Classes: **A** measured in flight, tunnel or on a stand; **B** output of the ref
 another simulation; **C** prediction of 1975, before the first flight. A is what counts; B says whether
 our blocks do what the reference's do, and where B disagrees with A, nobody can agree with both; C is
 sanity only. A number outside its tolerance is a MISS and stays one until the model, not the
-tolerance, changes. *Not yet*: the model cannot be asked, or the aircraft finds no such steady flight.
+tolerance, changes; a flight that ours cannot fly is a MISS too. *Not yet*: nobody has asked the model.
 
 Speeds are true, at sea level on a standard day, gross weight 13,000 lb, unless a case says otherwise.
 Stick is in inches from the aft stop, neutral at 4.8. Power is that of both rotors.

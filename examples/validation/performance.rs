@@ -4,7 +4,7 @@ use engine::Aircraft;
 use engine::inputs::{World, failures};
 use engine::trim::{GROUND_FAR_BELOW_M, Power, Target, Trim, trim};
 
-use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, RPM_RADPS};
+use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, Missing, POUND_KG, RPM_RADPS};
 use crate::trims::{at, stick_in, why};
 
 fn fuel_lb_per_h(trim: &Trim) -> f64 {
@@ -145,7 +145,7 @@ pub fn conversion(aircraft: &Aircraft, book: &mut Book) {
     let least = sticks_in.iter().fold(f64::INFINITY, |a, &b| engine::math::min(a, b));
     let range = if sticks_in.is_empty() { Err(reasons.join(", ")) } else { Ok(most - least) };
     case.row("stick travel along it, in (less than)", 3.0, range, Band::Between(0.0, 3.0), 2);
-    let flown = Err("needs a pilot model".to_owned());
+    let flown = Missing::NotYet("needs a pilot model");
     case.row("flown at 7.5 deg/s: time, s", 12.0, flown, Band::Within(2.0), 1);
     book.add(case);
 }
