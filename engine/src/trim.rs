@@ -648,7 +648,8 @@ impl<'a> Problem<'a> {
                     (INNER_WEIGHT * r.abs(), self.names[inner].as_str())
                 }
             };
-            if !(size <= worst.0) {
+            // What is not a number is worse than any.
+            if size > worst.0 || size.is_nan() {
                 worst = (size, name.into());
             }
         }
@@ -724,7 +725,7 @@ impl<'a> Problem<'a> {
             }
         }
         let (left, of) = self.worst(&residual);
-        if !(left < STEADY) {
+        if left >= STEADY || left.is_nan() {
             return Err(Failure::Unsteady { residual: left, of });
         }
         self.finish(&trial, left)
@@ -742,6 +743,8 @@ impl<'a> Problem<'a> {
         self.set_controls(&mut state, trial[COLLECTIVE]);
         let (next, outputs) = step::heading(aircraft, &state, world);
         state.rate = next.rate;
+        state.rate.motion.acceleration_mps2 =
+            a_tick_before(next.rate.motion.acceleration_mps2, self.target.turn_radps);
         let state = state.without_negative_zeros();
         let report = Report::new(aircraft, &state, &outputs, residual);
         let trim = Trim { state, outputs, report };
@@ -836,6 +839,13 @@ pub(crate) fn accelerations(state: &State, next: &State) -> [f64; 6] {
         - omega.cross(body_from_ned * state.plant.velocity_mps);
     let turn = rate.angular_acceleration_radps2;
     [along.x, along.y, along.z, turn.x, turn.y, turn.z]
+}
+
+/// An acceleration that turns with the aircraft, a tick before: what the integration remembers.
+fn a_tick_before(acceleration_mps2: Vec3<Ned>, turn_radps: f64) -> Vec3<Ned> {
+    let (s, c) = (sin(turn_radps * STEP_S), cos(turn_radps * STEP_S));
+    let Vec3 { x, y, z, .. } = acceleration_mps2;
+    Vec3::new(c * x + s * y, c * y - s * x, z)
 }
 
 /// ω of a steady turn.
