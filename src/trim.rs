@@ -132,9 +132,9 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         fs::write(path, csv(&rows)).with_context(|| format!("cannot write {}", path.display()))?;
     }
     if args.sweep.is_some() {
-        table(&rows)
+        table(&rows);
     } else {
-        list(&rows[0].1)
+        list(&rows[0].1);
     }
     let steady = rows.iter().all(|(_, found)| found.is_ok());
     Ok(if steady { ExitCode::SUCCESS } else { ExitCode::from(report::NO_TRIM) })

@@ -115,9 +115,9 @@ fn a_symmetric_trim_has_no_lateral_quantities_at_all() {
             let euler = plant.attitude.euler();
             let rate: Vec3<_> = plant.angular_rate_radps;
             let lateral = [euler.roll_rad, euler.heading_rad, plant.velocity_mps.y, rate.x, rate.z];
-            assert_eq!(lateral, [0.0; 5]);
+            assert!(lateral.iter().all(|number| number.abs() <= 0.0), "{lateral:?}");
             assert_eq!(plant.rotors.left, plant.rotors.right);
-            assert_eq!(state.cockpit.stick_right_norm, 0.0);
+            assert!(state.cockpit.stick_right_norm.abs() <= 0.0);
         }
     }
 }
@@ -160,14 +160,13 @@ fn what_the_engines_cannot_do_is_told_with_how_much_it_would_take() {
     ));
 }
 
-/// The aeroplane's spin-up is left out: what is asked is that nobody depends on what the state is of.
+/// A small pull, flown tick by tick and computed from the matrices.
 #[test]
 fn the_matrices_say_what_the_aircraft_does() {
     let xv15 = xv15();
     let target = flight(90.0, 180.0, 0);
     let trim = trimmed(&xv15, &target);
     let linear = linearize(&xv15, &trim, &target.world);
-    // A small pull, flown and computed: pitch rate after half a second.
     let pull_m = 1e-3;
     let mut pulled = trim.state;
     pulled.cockpit.stick_aft_norm += pull_m / xv15.fcc.travel.longitudinal_stick_m;

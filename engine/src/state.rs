@@ -241,7 +241,7 @@ mod tests {
             count += 1;
         });
         assert_eq!(count, names.len());
-        assert_eq!(state.plant.rotors.right.induced_mps, 7.0);
+        assert_eq!(state.plant.rotors.right.induced_mps.to_bits(), 7.0f64.to_bits());
     }
 
     #[test]

@@ -169,8 +169,11 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
     book.add(case);
 }
 
-/// Case 10's published numbers: attitude after 1 s per inch, damping, sensitivity; pitch, roll, yaw.
-const TMX: [(&str, u64, [f64; 3], [f64; 3], [f64; 3]); 2] = [
+/// SCAS, 1 when on; then of pitch, roll and yaw attitude after 1 s per inch, damping, sensitivity.
+type Augmented = (&'static str, u64, [f64; 3], [f64; 3], [f64; 3]);
+
+/// Case 10's published numbers.
+const TMX: [Augmented; 2] = [
     ("off", 0, [9.0, 6.6, 4.0], [0.85, 0.77, 0.116], [0.350, 0.471, 0.132]),
     ("on", 1, [5.3, 11.5, 15.0], [1.54, 1.82, 2.5], [0.300, 0.489, 0.328]),
 ];

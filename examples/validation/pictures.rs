@@ -106,7 +106,7 @@ fn draw(picture: &Picture, curves: &[Vec<(f64, Trim)>], text: &mut String) -> Dr
             .draw_series(LineSeries::new(line, colour.stroke_width(2)))?
             .label(format!("nacelles {nacelle_deg:.0} deg"))
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour));
-        let points = POINTS.iter().filter(|point| point.nacelle_deg == nacelle_deg);
+        let points = POINTS.iter().filter(|point| point.is_at(nacelle_deg));
         for point in points {
             let place = (point.airspeed_mps / KNOT_MPS, (picture.published)(point));
             if point.source == "flight" {

@@ -96,6 +96,13 @@ pub const POINTS: [Point; 16] = [
 const PRINTED: [(f64, f64, f64, f64); 3] =
     [(0.01, 1.11, 5.27, 7333.9), (40.0, -2.52, 5.07, 6097.2), (80.0, -9.35, 5.80, 6180.8)];
 
+impl Point {
+    /// Whether it was flown or computed with the nacelles there.
+    pub fn is_at(&self, nacelle_deg: f64) -> bool {
+        (self.nacelle_deg - nacelle_deg).abs() < 0.5
+    }
+}
+
 fn rows(aircraft: &Aircraft, case: &mut Case, point: &Point) {
     let found = at(aircraft, point.nacelle_deg, point.airspeed_mps);
     let of = |f: &dyn Fn(&Trim) -> f64| found.as_ref().map(f).map_err(Clone::clone);
@@ -136,7 +143,7 @@ pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
         let thrust = of(&|t| t.report.thrust_n.right / POUND_N);
         case.row(format!("{name}: thrust, lbf"), thrust_lbf, thrust, Band::Part(0.02), 0);
     }
-    for point in POINTS.iter().filter(|point| point.nacelle_deg == 90.0) {
+    for point in POINTS.iter().filter(|point| point.is_at(90.0)) {
         rows(aircraft, &mut case, point);
     }
     book.add(case);
