@@ -18,14 +18,19 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common)?;
+    #[cfg(feature = "rerun")]
+    let saved = out.with_extension("rrd");
+    #[cfg(feature = "rerun")]
+    if saved.exists() && !args.common.force {
+        anyhow::bail!("{} exists; overwrite it with --force", saved.display());
+    }
     let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP)?;
     plan.set_pilot("demo", &map)?;
     plan.set_map(map)?;
     say!("Vertical take-off, climb, hover turn, dash to 60 kt, landing: flown by a pilot model");
     say!("whose stick, lever and pedals take the path that hardware takes. Ctrl-C lands.");
-    match (&plan.flight.link, args.common.fast) {
-        (Some(link), false) => say!("Live in FlightGear at {}.", link.destination()),
-        (Some(_), true) | (None, _) => {}
+    if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
+        say!("Live in FlightGear at {}.", link.destination());
     }
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;
@@ -36,7 +41,6 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let status = verify::verify_one(out);
     #[cfg(feature = "rerun")]
     {
-        let saved = out.with_extension("rrd");
         let bytes = crate::view::save(out, &saved)?;
         say!("{}: {:.1} MB, for `rerun {0}`", saved.display(), bytes as f64 * 1e-6);
     }

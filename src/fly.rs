@@ -99,10 +99,11 @@ pub struct Common {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let mut plan = Plan::new(&args.common)?;
     if let Some(seconds) = args.duration {
-        if !(seconds.is_finite() && seconds > 0.0) {
-            bail!("--duration {seconds}: expected more than 0 s");
+        let ticks = (seconds / STEP_S).round();
+        if !(ticks.is_finite() && ticks >= 1.0) {
+            bail!("--duration {seconds}: expected {STEP_S} s (one tick) or more");
         }
-        plan.flight.ticks_max = Some((seconds / STEP_S).round() as u64);
+        plan.flight.ticks_max = Some(ticks as u64);
     }
     if args.air.from_trim {
         plan.begin_in(&args.air)?;

@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use engine::STEP_S;
 use logs::{Ending, FlightReader, LogError, Messages};
 use recorder::statistics::Statistics;
@@ -38,7 +38,7 @@ pub fn run(command: &Command) -> Result<ExitCode> {
 }
 
 fn info(log: &Path) -> Result<ExitCode> {
-    let mut reader = FlightReader::open(log)?;
+    let mut reader = FlightReader::open(log).with_context(|| log.display().to_string())?;
     say!("{}", log.display());
     for (key, value) in &reader.identity.0 {
         say!("  {key:<16} {value}");
@@ -74,8 +74,8 @@ fn info(log: &Path) -> Result<ExitCode> {
         statistics.sent.longest_ms()
     );
     say!("  {:<16} {digest:016x}", "digest");
-    for happening in &reader.happenings {
-        say!("  {:>10.3} s  {happening}", happening.tick as f64 * STEP_S);
+    for remark in &reader.remarks {
+        say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }
     let ending = match (disorder, reader.ending()) {
         (Some(error), _) => format!("unusable from here: {error}"),
@@ -90,7 +90,7 @@ fn info(log: &Path) -> Result<ExitCode> {
 fn cat(log: &Path, only: Option<&str>) -> Result<ExitCode> {
     // Whoever closes the pipe early, as `head` does, has seen enough.
     let mut out = BufWriter::new(io::stdout().lock());
-    let mut messages = Messages::open(log)?;
+    let mut messages = Messages::open(log).with_context(|| log.display().to_string())?;
     for message in &mut messages {
         if only.is_some_and(|only| only != message.topic) {
             continue;

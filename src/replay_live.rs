@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use flightgear::Link;
+use logs::Ending;
 use recorder::Pace;
 use replay::Reflight;
+
+use crate::report;
 
 /// What to refly, and where to show it.
 #[derive(clap::Args)]
@@ -27,15 +30,23 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
-    let mut flight = Reflight::open(&args.log)?;
+    let mut flight = Reflight::open(&args.log).with_context(|| args.log.display().to_string())?;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);
     let mut ticks = 0;
+    let mut first_difference = None;
     while let Some(reflown) = flight.next_tick()? {
         pace.wait(ticks);
         link.send(&reflown.outputs);
         flight.reader.timings.clear();
         ticks += 1;
+        if !reflown.exact && first_difference.is_none() {
+            first_difference = Some(ticks);
+            complain!(
+                "tiltrotor: from {:.3} s on this is not the recorded flight; `tiltrotor verify` says more",
+                ticks as f64 * STEP_S
+            );
+        }
     }
     say!(
         "{}: {:.1} s reflown at {} times real time, {} packets sent to {}, {} not",
@@ -46,5 +57,16 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         link.destination(),
         link.dropped()
     );
-    Ok(ExitCode::SUCCESS)
+    match flight.ending() {
+        Ending::Closed if first_difference.is_some() => Ok(ExitCode::from(report::DIVERGED)),
+        Ending::Closed => Ok(ExitCode::SUCCESS),
+        Ending::Truncated => {
+            let log = args.log.display();
+            complain!("tiltrotor: {log}: it ends there without having been closed");
+            Ok(ExitCode::from(report::NEVER_CLOSED))
+        }
+        Ending::Damaged(why) => {
+            bail!("{}: the file is damaged after that: {why}", args.log.display())
+        }
+    }
 }

@@ -5,6 +5,8 @@ use engine::math::PI;
 use recorder::Landing;
 use recorder::statistics::Durations;
 
+/// A log that does not refly to the same bits, or was changed.
+pub const DIVERGED: u8 = 1;
 /// A log that cannot be used, or a command that cannot be carried out.
 pub const UNUSABLE: u8 = 2;
 /// A log that is exact as far as it goes, but was never closed.

@@ -50,7 +50,7 @@ pub fn verify_one(log: &Path) -> u8 {
             say!("reflown in {took_s:.2} s, {:.0} times real time", flown_s / took_s);
             match verdict.outcome() {
                 Outcome::Exact => 0,
-                Outcome::Diverged => 1,
+                Outcome::Diverged => report::DIVERGED,
                 Outcome::Damaged => report::UNUSABLE,
                 Outcome::Incomplete => report::NEVER_CLOSED,
             }

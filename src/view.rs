@@ -24,7 +24,7 @@ mod with_rerun {
     use std::process::Command;
 
     use anyhow::{Context, bail};
-    use logs::records::Happening;
+    use engine::STEP_NS;
     use replay::Reflight;
     use replay::view::{FlightView, Level};
 
@@ -51,20 +51,20 @@ mod with_rerun {
 
     /// Reflies the log into a recording; returns its size.
     pub fn save(log: &Path, saved: &Path) -> Result<u64> {
-        let mut flight = Reflight::open(log)?;
+        let mut flight = Reflight::open(log).with_context(|| log.display().to_string())?;
         let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
         let mut view = FlightView::new(saved, &title)?;
         while let Some(reflown) = flight.next_tick()? {
             view.push(&reflown.outputs);
             flight.reader.timings.clear();
         }
-        for event in &flight.reader.happenings {
-            let level = match Happening::from_u64(event.kind) {
-                Some(Happening::Failures | Happening::DeviceDisconnected) => Level::Warning,
-                Some(Happening::Validity) if event.value != 0 => Level::Warning,
-                _ => Level::Info,
+        for remark in &flight.reader.remarks {
+            let level = match remark.level {
+                logs::view::Level::Info => Level::Info,
+                logs::view::Level::Warn => Level::Warning,
+                logs::view::Level::Error => Level::Error,
             };
-            view.event(event.tick, level, &event.to_string());
+            view.event(remark.time_ns / STEP_NS, level, &remark.words);
         }
         Ok(view.finish()?)
     }

@@ -4,10 +4,10 @@
 #   tests/rerun_screenshot.sh FLIGHT.rrd OUT.png [SECONDS]
 #
 # Needs no GPU and no X. Fails unless the picture shows something: an empty window has few colours.
-# Without SECONDS the picture is taken once everything is loaded, at twice the resolution, under the
-# viewer's first notices. With SECONDS the viewer plays that long (not exactly: it paces itself),
-# and the notices have gone. The viewer comes from PyPI into target/, Vulkan's software driver from
-# apt when it is missing.
+# Without SECONDS the picture is taken a second after the start, at twice the resolution, under the
+# viewer's first notices and with a long flight half loaded. With SECONDS (10 or more are good) the
+# viewer plays that long, faster or slower than real time as it pleases, and shows everything.
+# The viewer comes from PyPI into target/, Vulkan's software driver from apt when it is missing.
 set -eu
 
 VERSION=0.36.3

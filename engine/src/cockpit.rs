@@ -186,12 +186,13 @@ pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
                 }
             }
             Some(EventKind::Disconnected) => {
+                // Nobody holds the switches of a device that is gone, be they a hat or buttons.
                 for binding in &device.axis {
-                    if binding.when_unplugged == WhenUnplugged::Centre {
+                    let switch = binding.control == AxisControl::NacelleAft;
+                    if switch || binding.when_unplugged == WhenUnplugged::Centre {
                         set_axis(&mut controls, binding.control, 0.0);
                     }
                 }
-                // Nobody holds the switches of a device that is gone.
                 for binding in &device.button {
                     set_button(&mut controls, binding.control, false);
                 }
@@ -208,12 +209,15 @@ fn position(binding: &AxisBinding, raw: i64) -> f64 {
     if low == high {
         return 0.0;
     }
-    let travel = clamp((raw - low) as f64 / (high - low) as f64, 0.0, 1.0);
-    let travel = if binding.inverted { 1.0 - travel } else { travel };
+    // As floating-point numbers, because the difference of two of any size may not be an i64.
+    let (raw, low, high) = (raw as f64, low as f64, high as f64);
     if !is_centred(binding.control) {
-        return travel;
+        let travel = clamp((raw - low) / (high - low), 0.0, 1.0);
+        return if binding.inverted { 1.0 - travel } else { travel };
     }
-    let x = 2.0 * travel - 1.0;
+    // Both distances before they are divided: then the mirrored raw value is the mirrored position.
+    let x = clamp(((raw - low) - (high - raw)) / (high - low), -1.0, 1.0);
+    let x = if binding.inverted { -x } else { x };
     let dead = clamp(binding.dead_norm, 0.0, 0.99);
     let beyond = (x.abs() - dead) / (1.0 - dead);
     if beyond <= 0.0 {
@@ -249,16 +253,16 @@ fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
         ButtonControl::NacelleAft => hold_nacelles(controls, 1.0, pressed),
         _ if !pressed => {}
         ButtonControl::FlapDown => {
-            controls.flap_detent = (controls.flap_detent + 1).min(FLAP_DETENT_LAST);
+            controls.flap_detent = controls.flap_detent.wrapping_add(1).min(FLAP_DETENT_LAST);
         }
         ButtonControl::FlapUp => controls.flap_detent = controls.flap_detent.saturating_sub(1),
         ButtonControl::GearToggle => controls.gear_down ^= 1,
         ButtonControl::ParkingBrakeToggle => controls.parking_brake ^= 1,
         ButtonControl::ScasToggle => controls.scas_on ^= 1,
         ButtonControl::RpmSelect => {
-            controls.rpm_select = (controls.rpm_select + 1) % (RPM_SELECT_LAST + 1);
+            controls.rpm_select = controls.rpm_select.wrapping_add(1) % (RPM_SELECT_LAST + 1);
         }
-        ButtonControl::Marker => controls.markers += 1,
+        ButtonControl::Marker => controls.markers = controls.markers.wrapping_add(1),
     }
 }
 
@@ -266,7 +270,7 @@ fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
 fn hold_nacelles(controls: &mut State, aft_norm: f64, pressed: bool) {
     if pressed {
         controls.nacelle_aft_norm = aft_norm;
-    } else if sign(controls.nacelle_aft_norm) == sign(aft_norm) {
+    } else if controls.nacelle_aft_norm * aft_norm > 0.0 {
         controls.nacelle_aft_norm = 0.0;
     }
 }
@@ -313,6 +317,40 @@ mod tests {
         let left = position(&binding, 30);
         let right = position(&binding, 170);
         assert_eq!(left.to_bits(), (-right).to_bits());
+    }
+
+    #[test]
+    fn mirrored_raw_values_are_mirrored_positions_to_the_bit() {
+        let binding = AxisBinding {
+            raw_min: Some(-32767),
+            raw_max: Some(32767),
+            expo_norm: 0.3,
+            ..axis(AxisControl::StickRight)
+        };
+        for raw in 0..=32767 {
+            let (left, right) = (position(&binding, -raw), position(&binding, raw));
+            assert_eq!((left + right).to_bits(), 0, "{raw}");
+        }
+    }
+
+    #[test]
+    fn no_raw_value_is_too_large() {
+        let mut binding = axis(AxisControl::StickAft);
+        (binding.raw_min, binding.raw_max) = (Some(i64::MIN), Some(i64::MAX));
+        assert_eq!(position(&binding, i64::MIN).to_bits(), f64::to_bits(-1.0));
+        assert_eq!(position(&binding, i64::MAX).to_bits(), f64::to_bits(1.0));
+    }
+
+    #[test]
+    fn an_unplugged_hat_lets_go_of_the_nacelles_even_where_axes_hold() {
+        let hat =
+            AxisBinding { when_unplugged: WhenUnplugged::Hold, ..axis(AxisControl::NacelleAft) };
+        let device = Device { name: "hat".into(), axis: vec![hat], button: vec![] };
+        let map = Params { device: vec![device] };
+        let held = update(&map, &State::default(), &[event(EventKind::Axis, 1, 200)]);
+        assert_eq!(held.nacelle_aft_norm.to_bits(), f64::to_bits(1.0));
+        let gone = update(&map, &held, &[event(EventKind::Disconnected, 0, 0)]);
+        assert_eq!(gone.nacelle_aft_norm.to_bits(), 0);
     }
 
     #[test]

@@ -49,14 +49,15 @@ pub struct Outputs {
     pub sound_speed_mps: f64,
 }
 
-/// The air at a height; heights beyond −2..20 km count as those.
+/// The air at a height; heights beyond −2..20 km count as those, and so do offsets beyond ±80 K and
+/// ±20 kPa: no weather is beyond, and there is always some air to divide by.
 pub fn air(inputs: &Inputs) -> Outputs {
     let height_m = clamp(inputs.height_m, -2_000.0, 20_000.0);
     let in_troposphere_m = clamp(height_m, -2_000.0, TROPOPAUSE_M);
     let standard_k = TEMPERATURE_SL_K - LAPSE_K_PER_M * in_troposphere_m;
     let exponent = GRAVITY_MPS2 / (GAS_J_PER_KG_K * LAPSE_K_PER_M);
     let above_m = height_m - in_troposphere_m;
-    let pressure_pa = (PRESSURE_SL_PA + inputs.pressure_offset_pa)
+    let pressure_pa = (PRESSURE_SL_PA + clamp(inputs.pressure_offset_pa, -20e3, 20e3))
         * pow_positive(standard_k / TEMPERATURE_SL_K, exponent)
         * exp(-GRAVITY_MPS2 * above_m / (GAS_J_PER_KG_K * standard_k));
     let temperature_k = standard_k + clamp(inputs.temperature_offset_k, -80.0, 80.0);
@@ -93,10 +94,20 @@ mod tests {
     }
 
     #[test]
+    fn no_offset_takes_the_air_away() {
+        let air = air(&Inputs {
+            height_m: 20e3,
+            temperature_offset_k: -1e9,
+            pressure_offset_pa: -PRESSURE_SL_PA,
+        });
+        assert!(air.density_kg_per_m3 > 0.05 && air.temperature_k > 100.0);
+    }
+
+    #[test]
     fn warm_air_is_thinner_at_the_same_pressure() {
         let warm =
             air(&Inputs { height_m: 0.0, temperature_offset_k: 20.0, pressure_offset_pa: 0.0 });
         assert!(warm.density_kg_per_m3 < at(0.0).density_kg_per_m3);
-        assert_eq!(warm.pressure_pa, at(0.0).pressure_pa);
+        assert_eq!(warm.pressure_pa.to_bits(), at(0.0).pressure_pa.to_bits());
     }
 }

@@ -8,6 +8,8 @@
 //! ```
 //! # Signs
 //! F and M in body axes about the centre of gravity; g along NED z.
+//! # Assumptions
+//! Inertia changes slowly as the nacelles tilt: İ·ω is left out.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -62,4 +64,33 @@ pub fn motion(inputs: &Inputs) -> Rate {
         (xz * moment.x + xx * moment.z) / determinant,
     );
     Rate { acceleration_mps2, angular_acceleration_radps2 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::Attitude;
+
+    /// A top whose momentum points up (a rotor that turns counter-clockwise seen from above), pitched
+    /// nose up: the momentum is turned aft, which takes a moment to the left; the body feels its
+    /// reaction, to the right.
+    #[test]
+    fn a_rotor_pitched_up_rolls_the_body_to_the_right() {
+        let inertia = weight_balance::Inertia {
+            xx_kg_m2: 1000.0,
+            yy_kg_m2: 1000.0,
+            zz_kg_m2: 1000.0,
+            xz_kg_m2: 0.0,
+        };
+        let rate = motion(&Inputs {
+            load: Load::default(),
+            balance: weight_balance::Outputs { mass_kg: 1.0, inertia, ..Default::default() },
+            ned_from_body: Attitude::default().ned_from_body(),
+            angular_rate_radps: Vec3::new(0.0, 0.2, 0.0),
+            rotor_momentum_n_m_s: Vec3::new(0.0, 0.0, -5000.0),
+            rotor_momentum_rate_n_m: Vec3::zero(),
+        });
+        assert!((rate.angular_acceleration_radps2.x - 1.0).abs() < 1e-12);
+        assert_eq!(rate.acceleration_mps2, Vec3::new(0.0, 0.0, GRAVITY_MPS2));
+    }
 }

@@ -2,8 +2,10 @@
 //!
 //! # Equations
 //! ```text
-//! F = k·δ + c·δ̇, never pulling: F ≥ 0; past the stroke k grows tenfold
+//! F = k·δ + c·δ̇, never pulling: F ≥ 0; past the stroke k grows tenfold; from 0.15 m past it the
+//!     strut yields: no greater F, and F·(1 + δ̇/1 m/s) where it rises, so that it throws nothing back
 //! grip: bristle s, ṡ = v_slip, |s| ≤ μF/k_t;   G = −(k_t·s + c_t·v_slip), |G| ≤ μF
+//! hull: z ≤ −(ground + h_hull); where that binds, ż ≤ 0, sliding loses μ_h·(ż + g·h), ω̇ = −ω/τ_h
 //! ```
 //! # Signs
 //! δ and δ̇ positive in compression. NED z is down, so the push is along −z. Slip positive forward
@@ -12,16 +14,27 @@
 //! Level ground; struts along NED z; a retracted wheel lies `retraction_m` higher and still bears, so
 //! a belly landing stands on the wheel wells. Rotors, tail and wing tips do not touch. The bristle
 //! is what lets the aircraft stand still: it holds without sliding, like a tyre's tread.
+//! The hull is a rule, not a model: a wreck, any way up, comes to rest on the ground instead of
+//! sinking into it, from where a wheel that turns up again would throw it out.
 
 use serde::{Deserialize, Serialize};
 
-use crate::STEP_S;
 use crate::frames::{Body, Load, Ned, Rotation, Structural, Vec3};
-use crate::math::{clamp, max, sqrt, square};
+use crate::math::{clamp, max, min, sqrt, square};
 use crate::pair::Pair;
+use crate::{GRAVITY_MPS2, STEP_S};
 
 /// Past the stroke the strut is this much stiffer.
 const BOTTOMED: f64 = 10.0;
+/// Further past the stroke than this, it yields, m.
+const YIELD_M: f64 = 0.15;
+/// Rising faster than this a strut that yielded pushes no more, m/s.
+const YIELD_MPS: f64 = 1.0;
+
+/// μ_h of the hull.
+const HULL_FRICTION: f64 = 0.5;
+/// τ_h of the hull, s.
+const HULL_STOP_S: f64 = 0.2;
 
 /// What a strut is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -57,6 +70,8 @@ pub struct Params {
     pub tread_damping_n_s_per_m: f64,
     /// How much higher a retracted wheel lies.
     pub retraction_m: f64,
+    /// h_hull: nearer to the ground than this the centre of gravity does not come, any way up.
+    pub hull_height_m: f64,
 }
 
 /// One of each strut.
@@ -149,11 +164,7 @@ fn strut_and_tread(
     let velocity =
         inputs.velocity_mps + inputs.ned_from_body * inputs.angular_rate_radps.cross(arm);
     let past_stroke_m = max(0.0, compression_m - strut.stroke_m);
-    let push_n = max(
-        0.0,
-        strut.stiffness_n_per_m * (compression_m + (BOTTOMED - 1.0) * past_stroke_m)
-            + strut.damping_n_s_per_m * velocity.z,
-    );
+    let push_n = push(strut, compression_m, past_stroke_m, velocity.z);
 
     let nose = inputs.ned_from_body * Vec3::<Body>::new(1.0, 0.0, 0.0);
     let level = sqrt(square(nose.x) + square(nose.y));
@@ -174,6 +185,44 @@ fn strut_and_tread(
         Tread { forward_m, right_m },
         Leg { load, compression_m, push_n, bottomed: u64::from(past_stroke_m > 0.0) },
     )
+}
+
+/// The ground's push on a strut.
+fn push(strut: &Strut, compression_m: f64, past_stroke_m: f64, sinking_mps: f64) -> f64 {
+    let elastic_n = strut.stiffness_n_per_m * (compression_m + (BOTTOMED - 1.0) * past_stroke_m);
+    let push_n = max(0.0, elastic_n + strut.damping_n_s_per_m * sinking_mps);
+    let push_n_max = strut.stiffness_n_per_m * (strut.stroke_m + BOTTOMED * YIELD_M);
+    let spent =
+        if past_stroke_m > YIELD_M { clamp(1.0 + sinking_mps / YIELD_MPS, 0.0, 1.0) } else { 1.0 };
+    min(push_n, push_n_max) * spent
+}
+
+/// How the aircraft moves, as the hull changes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hulled {
+    /// Centre of gravity.
+    pub position_m: Vec3<Ned>,
+    /// Its velocity.
+    pub velocity_mps: Vec3<Ned>,
+    /// ω.
+    pub angular_rate_radps: Vec3<Body>,
+}
+
+/// The motion after a tick, kept above the ground by the hull; untouched where that does not bind.
+pub fn hull(params: &Params, motion: Hulled, ground_height_m: f64) -> Hulled {
+    let lowest_m = -(ground_height_m + params.hull_height_m);
+    if motion.position_m.z <= lowest_m {
+        return motion;
+    }
+    let velocity = motion.velocity_mps;
+    let pressed_mps = max(0.0, velocity.z) + GRAVITY_MPS2 * STEP_S;
+    let sliding_mps = max(sqrt(square(velocity.x) + square(velocity.y)), 1e-9);
+    let kept = max(0.0, 1.0 - HULL_FRICTION * pressed_mps / sliding_mps);
+    Hulled {
+        position_m: Vec3::new(motion.position_m.x, motion.position_m.y, lowest_m),
+        velocity_mps: Vec3::new(velocity.x * kept, velocity.y * kept, min(0.0, velocity.z)),
+        angular_rate_radps: motion.angular_rate_radps * (1.0 - STEP_S / HULL_STOP_S),
+    }
 }
 
 /// The strained tread after the tick, and its force, neither beyond what friction holds.
@@ -206,6 +255,7 @@ mod tests {
             tread_stiffness_n_per_m: 3e5,
             tread_damping_n_s_per_m: 2e4,
             retraction_m: 0.8,
+            hull_height_m: 1.0,
         }
     }
 
@@ -229,13 +279,39 @@ mod tests {
         let mut rebounding = standing(1.9);
         rebounding.velocity_mps = Vec3::new(0.0, 0.0, -50.0);
         let (_, legs) = landing_gear(&params(), &Struts::default(), &rebounding);
-        assert_eq!(legs.nose.push_n, 0.0);
+        assert_eq!(legs.nose.push_n.to_bits(), 0);
     }
 
     #[test]
     fn in_the_air_nothing_touches() {
         let (treads, legs) = landing_gear(&params(), &Struts::default(), &standing(2.5));
         assert_eq!((treads, legs), (Struts::default(), Struts::default()));
+    }
+
+    #[test]
+    fn ground_that_rises_by_a_step_lifts_the_aircraft_and_does_not_throw_it() {
+        let strut = params().main;
+        let most_n = 175e3 * (0.343 + 1.5);
+        let at = |past_stroke_m, sinking_mps| {
+            push(&strut, strut.stroke_m + past_stroke_m, past_stroke_m, sinking_mps)
+        };
+        assert!((at(0.1, 0.0) - 175e3 * 1.343).abs() < 1e-6);
+        assert!((at(9.0, 0.0) - most_n).abs() < 1e-6 && (at(9.0, 50.0) - most_n).abs() < 1e-6);
+        assert!((at(9.0, -0.5) - 0.5 * most_n).abs() < 1e-6 && at(9.0, -1.0) == 0.0);
+    }
+
+    #[test]
+    fn the_hull_stops_a_wreck_and_leaves_a_flight_alone() {
+        let motion = Hulled {
+            position_m: Vec3::new(0.0, 0.0, -1.1),
+            velocity_mps: Vec3::new(60.0, 0.0, 80.0),
+            angular_rate_radps: Vec3::new(0.0, 9.0, 0.0),
+        };
+        assert_eq!(hull(&params(), motion, 0.0), motion);
+        let wreck = hull(&params(), motion, 5.0);
+        assert_eq!((wreck.position_m.z, wreck.velocity_mps.z), (-6.0, 0.0));
+        assert!((19.0..20.0).contains(&wreck.velocity_mps.x), "60 less half of 80 m/s");
+        assert!(wreck.angular_rate_radps.y < 9.0);
     }
 
     #[test]

@@ -23,6 +23,8 @@ pub mod validity {
     pub const GEAR_BOTTOMED: u64 = 1 << 4;
     /// A number stopped being finite; the aircraft stands still.
     pub const FROZEN: u64 = 1 << 5;
+    /// The hull touches the ground: a wreck.
+    pub const HULL: u64 = 1 << 6;
 }
 
 /// Loads on the airframe by component, each about the centre of gravity.

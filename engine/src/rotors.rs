@@ -7,8 +7,8 @@
 //! W² = (ΩR)²·(1/3 + μ²/2) + (Vz + v)²
 //! T = ½ρσA·W²·(cl·cos φ − cd·sin φ)
 //! Q = ½ρσA·W²·(cl·sin φ + cd·cos φ)·¾R
-//! m̄ρAR·v̇ = T·G − 2ρA·v·√(μ²(ΩR)² + (Vz + v)²)          m̄ = 128/(75π)            [PETERS]
-//! G = 1 − (R/4z)²/(1 + (μ/λ)²)                             ground effect           [CHEESEMAN]
+//! m̄ρAR·v̇ = T·G² − 2ρA·v·√(μ²(ΩR)² + (Vz + v)²)         m̄ = 128/(75π)            [PETERS]
+//! G = 1 − (R/4z)²/(1 + (μ/λ)²)      v near the ground over v far from it           [CHEESEMAN]
 //! a1∞ = 2μx·(4/3·θ¾ − λ) − B1 − 16q/(γΩ) + p/Ω   tip path, aft positive  [CR536 form]
 //! b1∞ = −2μy·(4/3·θ¾ − λ) − 16p/(γΩ) − q/Ω   tip path, right positive
 //! ȧ1 = (a1∞ − a1)·γΩ/16, ḃ1 alike
@@ -196,7 +196,8 @@ pub fn rotor(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Outputs)
     let skew2 = mu2 / max(square(lambda), 1e-6);
     let ground = 1.0 - min_half(square(0.25 / height)) / (1.0 + skew2);
     let flow_mps = sqrt(mu2 * square(tip_mps) + square(through_mps));
-    let induced_mps2 = (thrust_n * ground - 2.0 * rho * area * state.induced_mps * flow_mps)
+    let induced_mps2 = (thrust_n * square(ground)
+        - 2.0 * rho * area * state.induced_mps * flow_mps)
         / (APPARENT_MASS * rho * area * params.radius_m);
 
     // Lock number grows with density.
@@ -316,6 +317,20 @@ mod tests {
         assert!((out.load.force_n.x / out.thrust_n - 0.05).abs() < 1e-4);
     }
 
+    /// The disc lags behind its mast; rolled, a disc that turns counter-clockwise goes aft as well.
+    #[test]
+    fn the_disc_stays_behind_when_its_mast_turns() {
+        let turning = |roll, pitch, mast_tilt_rate_radps| {
+            let mut inputs = Inputs { mast_tilt_rate_radps, ..hovering(0.2) };
+            inputs.motion.angular_rate_radps = Vec3::new(roll, pitch, 0.0);
+            rotor(&params(), &State::default(), &inputs).0
+        };
+        assert!(turning(0.0, 0.1, 0.0).tilt_aft_radps < 0.0, "nose up leaves it forward");
+        assert!(turning(0.0, 0.0, 0.1).tilt_aft_radps > 0.0, "the nacelle forward leaves it aft");
+        let rolled = turning(0.1, 0.0, 0.0);
+        assert!(rolled.tilt_right_radps < 0.0 && rolled.tilt_aft_radps > 0.0);
+    }
+
     #[test]
     fn the_right_rotor_drags_the_nose_to_the_right() {
         let (_, out) = settled(&params(), &hovering(0.2));
@@ -329,6 +344,17 @@ mod tests {
         inputs.mast_tilt_rad = crate::math::FRAC_PI_2;
         let (_, out) = settled(&params(), &inputs);
         assert!((out.load.force_n.x / out.thrust_n - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn near_the_ground_the_inflow_falls_as_cheeseman_and_bennett_say() {
+        let p = params();
+        let mut inputs = hovering(0.2);
+        inputs.hub_height_m = 0.75 * p.radius_m;
+        let (state, out) = settled(&p, &inputs);
+        let far_mps = sqrt(out.thrust_n / (2.0 * 1.225 * p.disc_area_m2()));
+        // 1 − (1/(4·0.75))² = 8/9.
+        assert!((state.induced_mps / far_mps - 8.0 / 9.0).abs() < 1e-9);
     }
 
     #[test]

@@ -9,9 +9,10 @@ use crate::state::{Geodetic, Plant, State};
 use crate::trim::{Failure, Power, Target, trim};
 use crate::{Aircraft, GRAVITY_MPS2, cockpit, fcc, rotors, step};
 
-/// How long the aircraft settles on its wheels before the flight, in ticks: twenty seconds, the time
-/// the governor takes to find the idling collective.
-const SETTLING_TICKS: u64 = 5000;
+/// How long the aircraft settles on its wheels before the flight, in ticks.
+///
+/// Half a minute: the governor needs most of it to find the collective that idle power holds.
+const SETTLING_TICKS: u64 = 7500;
 
 /// Where and how a flight begins: standing on its wheels, rotors turning, nacelles up; or in the air.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -80,8 +81,8 @@ impl WorldStart {
     /// As the step takes it.
     pub fn world(&self) -> World {
         let wind_mps: Vec3<Ned> = Vec3::new(
-            -self.wind_mps * crate::math::cos(self.wind_from_rad),
-            -self.wind_mps * crate::math::sin(self.wind_from_rad),
+            0.0 - self.wind_mps * crate::math::cos(self.wind_from_rad),
+            0.0 - self.wind_mps * crate::math::sin(self.wind_from_rad),
             0.0,
         );
         World {

@@ -9,10 +9,10 @@
 //! Cockpit, computer, actuators and tyres are sampled: they move once a tick and hold through it.
 
 use crate::aero::{Motion, fuselage, horizontal_stabilizer, vertical_stabilizers, wing_pylon};
-use crate::frames::{Body, Load, Ned, Rotation, Vec3};
+use crate::frames::{Body, Euler, Load, Ned, Rotation, Vec3};
 use crate::inputs::World;
 use crate::landing_gear::{Struts, Tread};
-use crate::math::{TAU, atan2, max, min, sqrt, square};
+use crate::math::{PI, TAU, atan2, max, min, sqrt, square};
 use crate::outputs::{EulerRate, Loads, Outputs, calibrated_airspeed, place, validity};
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
@@ -25,18 +25,24 @@ use crate::{
 /// Advances the aircraft by one tick. Same arguments, same bits.
 pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
     let pilot = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
-    let held = State { tick: state.tick + 1, cockpit: pilot, ..*state };
-    if inputs.world.paused != 0 || state.frozen != 0 {
-        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world);
-        return (held, blocks.outputs(&held));
-    }
+    let held = State { tick: state.tick.wrapping_add(1), cockpit: pilot, ..*state };
 
     // Sampled once, held through the tick.
-    let (sampled, commands) = sample(aircraft, state, &held, &inputs.world);
+    let sensed = sense(state, &inputs.world);
+    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &pilot, &sensed, &inputs.world);
+    if inputs.world.paused != 0 || state.frozen != 0 {
+        // What the computer asks for stays to be seen; what it remembers does not move. The rates
+        // of the tick before the pause stay too, so that the motion goes on as if there were none.
+        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world);
+        return (held, Outputs { commands, ..blocks.outputs(&held) });
+    }
+    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
+    let sampled = State { fcc, actuators, ..held };
 
     // Integrated across the tick.
     let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world);
     let plant = advance(&sampled.plant, &blocks.rate, &state.rate, &blocks.gear);
+    let plant = above_ground(aircraft, plant, &inputs.world);
     let next = State { plant, rate: blocks.rate, ..sampled }.without_negative_zeros();
     let next = if next.is_finite() { next } else { State { frozen: 1, ..held } };
     let outputs = Outputs { commands, ..blocks.outputs(&next) };
@@ -49,24 +55,13 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
 /// This is no flight. It is what trim and linearisation look at, where all parts are wanted at the
 /// same moment.
 pub fn heading(aircraft: &Aircraft, state: &State, world: &World) -> (State, Outputs) {
-    let (sampled, commands) = sample(aircraft, state, state, world);
+    let sensed = sense(state, world);
+    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
+    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
     let blocks = Blocks::evaluate(aircraft, state, world);
     let plant = advance(&state.plant, &blocks.rate, &blocks.rate, &blocks.gear);
     let outputs = Outputs { commands, ..blocks.outputs(state) };
-    (State { plant, rate: blocks.rate, ..sampled }, outputs)
-}
-
-/// `held` with computer and actuators a tick after those of `state`, and the computer's commands.
-fn sample(
-    aircraft: &Aircraft,
-    state: &State,
-    held: &State,
-    world: &World,
-) -> (State, fcc::mixer::Commands) {
-    let sensed = sense(state, world);
-    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &held.cockpit, &sensed, world);
-    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
-    (State { fcc, actuators, ..*held }, commands)
+    (State { fcc, actuators, plant, rate: blocks.rate, ..*state }, outputs)
 }
 
 /// What the flight control computer's sensors read. Ideal: no lag, no noise.
@@ -74,9 +69,13 @@ pub(crate) fn sense(state: &State, world: &World) -> fcc::Sensed {
     let plant = &state.plant;
     let airspeed_mps = (plant.velocity_mps - world.wind_mps).norm();
     let air = air(plant, world);
+    let euler = plant.attitude.euler();
+    // Exactly upside down neither way round is the shorter: taking one would break the symmetry.
+    let half_turn = euler.roll_rad.abs() >= PI;
+    let euler = Euler { roll_rad: if half_turn { 0.0 } else { euler.roll_rad }, ..euler };
     fcc::Sensed {
         angular_rate_radps: plant.angular_rate_radps,
-        euler: plant.attitude.euler(),
+        euler,
         airspeed_mps,
         dynamic_pressure_pa: 0.5 * air.density_kg_per_m3 * square(airspeed_mps),
         rotor_speed_radps: plant.rotor_speed_radps,
@@ -139,6 +138,17 @@ fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear
     }
 }
 
+/// The plant where the hull lets it be.
+fn above_ground(aircraft: &Aircraft, plant: Plant, world: &World) -> Plant {
+    let Plant { position_m, velocity_mps, angular_rate_radps, .. } = plant;
+    let landing_gear::Hulled { position_m, velocity_mps, angular_rate_radps } = landing_gear::hull(
+        &aircraft.landing_gear,
+        landing_gear::Hulled { position_m, velocity_mps, angular_rate_radps },
+        world.ground_height_m,
+    );
+    Plant { position_m, velocity_mps, angular_rate_radps, ..plant }
+}
+
 /// The landing gear's answer: next treads, and each leg.
 struct Gear {
     treads: Struts<Tread>,
@@ -147,7 +157,8 @@ struct Gear {
 
 /// What every block says of one state: the block diagram, once through.
 struct Blocks {
-    height_above_ground_m: f64,
+    ground_height_m: f64,
+    hull_height_m: f64,
     air: environment::Outputs,
     motion: Motion,
     balance: weight_balance::Outputs,
@@ -246,7 +257,8 @@ impl Blocks {
         };
         let gear = Gear { treads, legs };
         Self {
-            height_above_ground_m,
+            ground_height_m: world.ground_height_m,
+            hull_height_m: aircraft.landing_gear.hull_height_m,
             air,
             motion,
             balance,
@@ -273,7 +285,7 @@ impl Blocks {
             tick: next.tick,
             place: place(&plant.origin, plant.position_m),
             position_m: plant.position_m,
-            height_above_ground_m: self.height_above_ground_m,
+            height_above_ground_m: self.height_above_ground_m(next),
             velocity_mps: plant.velocity_mps,
             body_velocity_mps: body_from_ned * plant.velocity_mps,
             euler,
@@ -303,21 +315,31 @@ impl Blocks {
         }
     }
 
+    fn height_above_ground_m(&self, next: &State) -> f64 {
+        -next.plant.position_m.z - self.ground_height_m
+    }
+
     fn validity(&self, next: &State) -> u64 {
         let flag = |bit: u64, set: bool| if set { bit } else { 0 };
-        let up_mps = -next.plant.velocity_mps.z;
+        // Through the air and along the masts, which stand upright where it counts.
+        let sinking_mps = self.motion.airspeed_mps.z;
         let induced_mps = self.rotors.map(|rotor| rotor.induced_mps).mean();
         let upright = next.actuators.mast_tilt_rad.mean() < 0.5;
+        let airborne = next.plant.weight_on_wheels == 0;
         let slow = self.rotors.left.advance_ratio < 0.05 && self.rotors.right.advance_ratio < 0.05;
         let legs = &self.gear.legs;
         let bottomed =
             [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
         flag(validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
-            | flag(validity::VORTEX_RING, upright && slow && up_mps < -0.5 * induced_mps)
+            | flag(
+                validity::VORTEX_RING,
+                airborne && upright && slow && sinking_mps > 0.5 * max(induced_mps, 2.0),
+            )
             | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
             | flag(validity::HEIGHT, next.plant.origin.height_m - next.plant.position_m.z > 12e3)
             | flag(validity::GEAR_BOTTOMED, bottomed)
             | flag(validity::FROZEN, next.frozen != 0)
+            | flag(validity::HULL, self.height_above_ground_m(next) <= self.hull_height_m)
     }
 }
 

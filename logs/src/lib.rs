@@ -24,13 +24,8 @@ pub use writer::{Closed, FlightWriter};
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
     /// The file cannot be opened.
-    #[error("cannot read {path}: {error}")]
-    Open {
-        /// Which.
-        path: String,
-        /// Why.
-        error: io::Error,
-    },
+    #[error("cannot be read: {0}")]
+    Open(io::Error),
     /// The file cannot be made.
     #[error("cannot write {path}: {error}")]
     Create {
@@ -69,20 +64,33 @@ pub enum LogError {
     Decode(String),
     /// MCAP's own errors.
     #[error("log file: {0}")]
-    Mcap(#[from] mcap::McapError),
+    Mcap(mcap::McapError),
     /// Reading or writing.
     #[error("log file: {0}")]
-    Io(#[from] io::Error),
+    Io(io::Error),
     /// A type that is not recordable.
     #[error(transparent)]
     Fields(#[from] fields::NotRecordable),
 }
 
-impl LogError {
-    fn open(path: &Path, error: io::Error) -> Self {
-        Self::Open { path: path.display().to_string(), error }
+// By hand: what is said in full is not to be said again as the source.
+impl From<io::Error> for LogError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
     }
+}
 
+impl From<mcap::McapError> for LogError {
+    fn from(error: mcap::McapError) -> Self {
+        match error {
+            // MCAP's own words hide the system's: a full disk is to be called one.
+            mcap::McapError::Io(error) => Self::Io(error),
+            error => Self::Mcap(error),
+        }
+    }
+}
+
+impl LogError {
     fn create(path: &Path, error: io::Error) -> Self {
         let path = path.display().to_string();
         if error.kind() == io::ErrorKind::AlreadyExists {

@@ -18,7 +18,8 @@ use crate::records::{
     Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
     TIMING, TimingRecord, first_digest,
 };
-use crate::setup::{Identity, METADATA, Setup};
+use crate::setup::{CLOSING, CLOSING_DIGEST, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup};
+use crate::view::{self, Remark};
 use crate::{LogError, cdr};
 
 /// No record of a flight is larger than this; a length beyond it is damage, not data.
@@ -63,8 +64,14 @@ pub struct FlightReader {
     pub intact: bool,
     chain: Chain,
     pending: Pending,
+    /// Tick and digest of the last state read.
+    last: (u64, u64),
+    /// Tick and digest of the last state written, as the writer closed the log.
+    closing: Option<(u64, u64)>,
     /// Events in the order they were recorded.
     pub happenings: Vec<EventRecord>,
+    /// The same in words.
+    pub remarks: Vec<Remark>,
     /// How the ticks kept time; cleared by whoever takes them.
     pub timings: Vec<TimingRecord>,
     ending: Option<Ending>,
@@ -83,18 +90,23 @@ impl FlightReader {
     /// # Errors
     /// When the file cannot be read, is not MCAP, or is not a flight of ours.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(|error| LogError::open(path, error))?;
-        if file.metadata().map_err(|error| LogError::open(path, error))?.is_dir() {
+        let file = File::open(path).map_err(LogError::Open)?;
+        if file.metadata().map_err(LogError::Open)?.is_dir() {
             return Err(LogError::NotAFlight("a folder".into()));
         }
         let mut records = Records::new(file);
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
+        // A tool that copied the log may have put the writer's last word first.
+        let mut closing = None;
         loop {
             match records.next() {
                 Some(Item::Metadata(name, facts)) if name == METADATA => {
                     identity = Some(Identity(facts));
+                }
+                Some(Item::Metadata(name, facts)) if name == CLOSING => {
+                    closing = last_word(&facts);
                 }
                 Some(Item::Attachment(name, data)) => {
                     let Some(known) = Setup::NAMES.iter().find(|known| **known == name) else {
@@ -123,7 +135,10 @@ impl FlightReader {
                         intact: digest == first.digest,
                         chain: Chain::from(first.digest),
                         pending: Pending::default(),
+                        last: (first.state.tick, first.digest),
+                        closing,
                         happenings: Vec::new(),
+                        remarks: Vec::new(),
                         timings: Vec::new(),
                         ending: None,
                     });
@@ -147,10 +162,28 @@ impl FlightReader {
     pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
         loop {
             let Some(item) = self.records.next() else {
-                self.ending = Some(self.records.ending());
+                let ending = self.records.ending();
+                let begun = self.pending.inputs.is_some() || !self.pending.events.is_empty();
+                if ending == Ending::Closed && begun {
+                    return Err(LogError::Order("the last tick has no state".into()));
+                }
+                // An end without the writer's last word was put there by someone else.
+                let whole = self.closing == Some(self.last);
+                self.ending = Some(if ending == Ending::Closed && !whole {
+                    Ending::Truncated
+                } else {
+                    ending
+                });
                 return Ok(None);
             };
-            let Item::Message(topic, _, data) = item else { continue };
+            let (topic, data) = match item {
+                Item::Message(topic, _, data) => (topic, data),
+                Item::Metadata(name, facts) if name == CLOSING => {
+                    self.closing = last_word(&facts);
+                    continue;
+                }
+                Item::Metadata(..) | Item::Attachment(..) => continue,
+            };
             match topic.as_str() {
                 HARDWARE => {
                     self.chain.add(&data);
@@ -162,13 +195,14 @@ impl FlightReader {
                     if self.pending.inputs.replace(inputs).is_some() {
                         return Err(LogError::Order(format!(
                             "two inputs before the state of tick {}",
-                            inputs.tick + 1
+                            inputs.tick.saturating_add(1)
                         )));
                     }
                 }
                 STATE => return self.close_tick(&data).map(Some),
                 TIMING => self.timings.push(cdr::decode(&data)?),
                 EVENTS => self.happenings.push(cdr::decode(&data)?),
+                view::LOG => self.remarks.push(view::remark(&data)?),
                 _ => {}
             }
         }
@@ -196,6 +230,7 @@ impl FlightReader {
         let chained = self.chain.close(&state_message) == record.digest;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
+        self.last = (tick, record.digest);
         Ok(Tick { events, inputs, record, state_message, chained })
     }
 
@@ -227,7 +262,7 @@ impl Messages {
     /// # Errors
     /// When the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(|error| LogError::open(path, error))?;
+        let file = File::open(path).map_err(LogError::Open)?;
         Ok(Self { records: Records::new(file) })
     }
 
@@ -275,10 +310,17 @@ fn no_flight(why: &str) -> LogError {
     LogError::NotAFlight(format!("an MCAP file, but not a tiltrotor flight: {why}"))
 }
 
+/// Tick and digest with which the writer closed the log.
+fn last_word(facts: &BTreeMap<String, String>) -> Option<(u64, u64)> {
+    let number = |key| facts.get(key).and_then(|text| text.parse().ok());
+    number(CLOSING_TICK).zip(number(CLOSING_DIGEST))
+}
+
 fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
     let known = [
         (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
         (Identity::MODEL, "flight model", engine::MODEL_VERSION),
+        (Identity::RATE, "number of ticks a second", RATE_HZ),
     ];
     for (key, what, ours) in known {
         let theirs = identity.get(key);

@@ -1,7 +1,5 @@
 //! What is recorded, and on which channel.
 
-use std::fmt;
-
 use engine::inputs::World;
 use engine::{STEP_NS, State};
 use serde::{Deserialize, Serialize};
@@ -118,34 +116,13 @@ impl Happening {
     }
 }
 
-impl fmt::Display for EventRecord {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = self.value;
-        match Happening::from_u64(self.kind) {
-            Some(Happening::Marker) => write!(f, "marker {value}"),
-            Some(Happening::Failures) => write!(f, "failures 0x{value:x}"),
-            Some(Happening::DeviceConnected) => write!(f, "device {value} connected"),
-            Some(Happening::DeviceDisconnected) => write!(f, "device {value} disconnected"),
-            Some(Happening::Validity) if value == 0 => write!(f, "within the model's validity"),
-            Some(Happening::Validity) => write!(f, "outside the model's validity: 0x{value:x}"),
-            Some(Happening::Paused) if value == 0 => write!(f, "goes on"),
-            Some(Happening::Paused) => write!(f, "paused"),
-            Some(Happening::WeightOnWheels) if value == 0 => write!(f, "lift-off"),
-            Some(Happening::WeightOnWheels) => write!(f, "touchdown"),
-            Some(Happening::Landed) if value == 0 => write!(f, "end of the flight"),
-            Some(Happening::Landed) => write!(f, "ended by the crew"),
-            Some(Happening::Phase) => write!(f, "pilot model's phase {value}"),
-            None => write!(f, "event of an unknown kind {}, value {value}", self.kind),
-        }
-    }
-}
-
 /// Log time of a tick's state, ns since the start of the flight.
 pub fn time_ns(tick: u64) -> u64 {
     tick.saturating_mul(STEP_NS)
 }
 
-/// The digest that starts a chain: everything the flight began with.
+/// The digest that starts a chain: everything the flight is reflown from. Who flew it, and when, is
+/// not part of it: the same flight has the same digests.
 pub fn first_digest(setup: &[(&str, &str)], state_message: &[u8]) -> u64 {
     let mut bytes = Vec::new();
     for (name, text) in setup {

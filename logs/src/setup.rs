@@ -5,6 +5,17 @@ use std::collections::BTreeMap;
 /// Name of the metadata record that makes an MCAP file a flight of ours.
 pub const METADATA: &str = "tiltrotor";
 
+/// Name of the metadata record with which the writer closes a log.
+pub(crate) const CLOSING: &str = "tiltrotor_closing";
+/// Its key for the last tick.
+pub(crate) const CLOSING_TICK: &str = "tick";
+/// Its key for the last digest.
+pub(crate) const CLOSING_DIGEST: &str = "digest";
+
+/// Ticks a second.
+pub(crate) const RATE_HZ: &str = "250";
+const _: () = assert!(250 * engine::STEP_NS == 1_000_000_000);
+
 /// The texts a flight is reflown from; each is an attachment of the log.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Setup {
@@ -61,7 +72,7 @@ impl Identity {
         let facts = [
             (Self::MODEL, engine::MODEL_VERSION.to_string()),
             (Self::FORMAT, crate::records::FORMAT_VERSION.to_string()),
-            (Self::RATE, (1_000_000_000 / engine::STEP_NS).to_string()),
+            (Self::RATE, RATE_HZ.to_string()),
         ];
         Self(facts.into_iter().map(|(key, value)| (key.to_string(), value)).collect())
     }

@@ -8,6 +8,8 @@ use engine::frames::{Attitude, Body, Ned, Vec3};
 use engine::math::{FRAC_PI_2, PI, cos, sin};
 use serde::Serialize;
 
+use crate::{LogError, cdr};
+
 /// Frames of the aircraft and its moving parts.
 pub const TF: &str = "/tf";
 /// The aircraft's shape.
@@ -190,6 +192,43 @@ pub struct Log<'a> {
     line: u32,
 }
 
+/// A line of the flight's log, read back.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Remark {
+    /// Simulated time, ns.
+    pub time_ns: u64,
+    /// Severity.
+    pub level: Level,
+    /// What was said.
+    pub words: String,
+}
+
+/// A `/log` message read back.
+///
+/// # Errors
+/// When the bytes are none.
+pub fn remark(message: &[u8]) -> Result<Remark, LogError> {
+    #[derive(serde::Deserialize)]
+    struct Said {
+        sec: i32,
+        nanosec: u32,
+        level: u8,
+        _name: String,
+        msg: String,
+    }
+    let body = message
+        .strip_prefix(&cdr::HEADER)
+        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
+    let (said, _) = cdr_encoding::from_bytes::<Said, byteorder::LittleEndian>(body)
+        .map_err(|_| LogError::Decode("not the words of a /log message".into()))?;
+    let known = [Level::Info, Level::Warn, Level::Error];
+    Ok(Remark {
+        time_ns: u64::from(said.sec.unsigned_abs()) * 1_000_000_000 + u64::from(said.nanosec),
+        level: known.into_iter().find(|level| *level as u8 == said.level).unwrap_or(Level::Error),
+        words: said.msg,
+    })
+}
+
 fn stamp(tick: u64) -> Time {
     let ns = crate::records::time_ns(tick);
     Time {
@@ -354,6 +393,14 @@ mod tests {
         let up = turn(&q, [0.0, 0.0, 1.0]);
         assert!((nose[0] - 1.0).abs() < 1e-12, "{nose:?}");
         assert!((up[2] - 1.0).abs() < 1e-12, "{up:?}");
+    }
+
+    #[test]
+    fn words_are_read_back() {
+        let message = cdr::encode_view(&log(375, Level::Warn, "left engine")).unwrap();
+        let remark = remark(&message).unwrap();
+        assert_eq!((remark.time_ns, remark.level), (1_500_000_000, Level::Warn));
+        assert_eq!(remark.words, "left engine");
     }
 
     #[test]

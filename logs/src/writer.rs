@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::BufWriter;
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 use engine::frames::{Attitude, Vec3};
@@ -16,7 +16,7 @@ use crate::records::{
     Chain, EVENTS, EventRecord, HARDWARE, Happening, INPUTS, InputsRecord, OUTPUTS, STATE,
     StateRecord, TIMING, TimingRecord, first_digest, time_ns,
 };
-use crate::setup::{Identity, METADATA, Setup};
+use crate::setup::{CLOSING, CLOSING_DIGEST, CLOSING_TICK, Identity, METADATA, Setup};
 use crate::view::{self, Level};
 use crate::{LogError, cdr, schema};
 
@@ -49,6 +49,7 @@ pub struct FlightWriter {
     mcap: Writer<BufWriter<File>>,
     channels: Channels,
     chain: Chain,
+    last_tick: u64,
     message: Vec<u8>,
     pivot_m: Vec3<engine::frames::Structural>,
     mast_m: f64,
@@ -124,6 +125,7 @@ impl FlightWriter {
             mcap,
             channels,
             chain: Chain::from(digest),
+            last_tick: initial.tick,
             message: Vec::with_capacity(8192),
             pivot_m: aircraft.rotors.pivot_m,
             mast_m: aircraft.rotors.mast_length_m,
@@ -163,6 +165,7 @@ impl FlightWriter {
         self.message.clear();
         cdr::append(&mut self.message, state)?;
         let digest = self.chain.close(&self.message);
+        self.last_tick = state.tick;
         self.record(self.channels.state, state.tick, &StateRecord { digest, state: *state })
     }
 
@@ -225,14 +228,19 @@ impl FlightWriter {
         Ok(self.mcap.flush()?)
     }
 
-    /// Ends the log with its index.
+    /// Ends the log with the last tick and digest, and its index.
     ///
     /// # Errors
     /// When the file cannot be written.
     pub fn finish(mut self) -> Result<Closed, LogError> {
-        self.mcap.finish()?;
         let digest = self.chain.digest();
-        let file = self.mcap.into_inner().into_inner().map_err(|error| error.into_error())?;
+        let last_word = [(CLOSING_TICK, self.last_tick), (CLOSING_DIGEST, digest)];
+        self.mcap.write_metadata(&mcap::records::Metadata {
+            name: CLOSING.into(),
+            metadata: last_word.map(|(key, number)| (key.into(), number.to_string())).into(),
+        })?;
+        self.mcap.finish()?;
+        let file = self.mcap.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
         Ok(Closed { bytes: file.metadata()?.len(), digest })
     }
 

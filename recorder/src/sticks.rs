@@ -111,8 +111,10 @@ impl Reader {
             reader.recognise(id);
         }
         if reader.numbers.iter().all(Option::is_none) {
-            let names: Vec<_> =
-                ids.filter_map(|id| reader.gilrs.gamepad(id)).map(|pad| pad.name()).collect();
+            let names: Vec<_> = ids
+                .filter_map(|id| reader.gilrs.gamepad(id))
+                .map(gilrs_core::Gamepad::name)
+                .collect();
             let seen = if names.is_empty() {
                 String::new()
             } else {

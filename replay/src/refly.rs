@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use engine::{Aircraft, Inputs, Outputs, State, step};
-use logs::{Ending, FlightReader, LogError, Tick};
+use logs::{Ending, FlightReader, LogError, Tick, cdr};
 
 /// Why a log cannot be reflown.
 #[derive(Debug, thiserror::Error)]
@@ -24,6 +24,8 @@ pub struct Reflight {
     pub aircraft: Aircraft,
     /// The state after the last tick.
     pub state: State,
+    /// The same as a message.
+    message: Vec<u8>,
 }
 
 /// One tick, recorded and reflown.
@@ -32,6 +34,8 @@ pub struct Reflown {
     pub recorded: Tick,
     /// What can be observed after it.
     pub outputs: Outputs,
+    /// Whether the reflown state is the recorded one, to the bit.
+    pub exact: bool,
 }
 
 impl Reflight {
@@ -47,7 +51,7 @@ impl Reflight {
         // The flight does not need it, but a log whose scenario cannot be read is not whole.
         aircraft::start("scenario.toml", &setup.scenario_toml)?;
         let state = reader.initial;
-        Ok(Self { reader, aircraft, state })
+        Ok(Self { reader, aircraft, state, message: Vec::new() })
     }
 
     /// Flies the next tick; `None` at the end of the log.
@@ -59,7 +63,10 @@ impl Reflight {
         let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
         let (state, outputs) = step(&self.aircraft, &self.state, &inputs);
         self.state = state;
-        Ok(Some(Reflown { recorded, outputs }))
+        self.message.clear();
+        cdr::append(&mut self.message, &state)?;
+        let exact = self.message == recorded.state_message;
+        Ok(Some(Reflown { recorded, outputs, exact }))
     }
 
     /// How the log ends, once it has been flown.

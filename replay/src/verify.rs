@@ -6,7 +6,7 @@ use std::path::Path;
 use engine::STEP_S;
 use engine::inputs::{DeviceEvent, EventKind};
 use logs::fields::{Value, fields};
-use logs::{Ending, LogError, cdr};
+use logs::{Ending, LogError};
 
 use crate::refly::{Reflight, ReplayError};
 
@@ -90,15 +90,15 @@ pub fn verify(path: &Path, mut progress: impl FnMut(u64)) -> Result<Verdict, Rep
         digest: 0,
     };
     let mut last_input = None;
-    let mut message = Vec::new();
     loop {
         // After the first difference the rest is only counted.
         let step = if verdict.divergence.is_none() {
-            flight.next_tick().map(|reflown| reflown.map(|reflown| reflown.recorded))
+            flight.next_tick().map(|reflown| reflown.map(|tick| (tick.recorded, tick.exact)))
         } else {
-            flight.reader.next_tick().map_err(ReplayError::from)
+            let tick = flight.reader.next_tick().map_err(ReplayError::from);
+            tick.map(|tick| tick.map(|tick| (tick, false)))
         };
-        let tick = match step {
+        let (tick, exact) = match step {
             Ok(Some(tick)) => tick,
             Ok(None) => break,
             Err(ReplayError::Log(error @ (LogError::Order(_) | LogError::Decode(_)))) => {
@@ -113,17 +113,13 @@ pub fn verify(path: &Path, mut progress: impl FnMut(u64)) -> Result<Verdict, Rep
             verdict.altered = Some(tick.record.state.tick);
         }
         last_input = tick.events.last().copied().or(last_input);
-        if verdict.divergence.is_none() {
-            message.clear();
-            cdr::append(&mut message, &flight.state)?;
-            if message == tick.state_message {
-                verdict.exact += 1;
-            } else {
-                let recorded = fields(&tick.record.state).map_err(LogError::from)?;
-                let reflown = fields(&flight.state).map_err(LogError::from)?;
-                verdict.divergence =
-                    divergence(tick.record.state.tick, &recorded, &reflown, last_input);
-            }
+        if exact {
+            verdict.exact += 1;
+        } else if verdict.divergence.is_none() {
+            let recorded = fields(&tick.record.state).map_err(LogError::from)?;
+            let reflown = fields(&flight.state).map_err(LogError::from)?;
+            verdict.divergence =
+                divergence(tick.record.state.tick, &recorded, &reflown, last_input);
         }
         flight.reader.timings.clear();
         progress(verdict.ticks);
@@ -231,8 +227,8 @@ impl fmt::Display for Divergence {
                     input.device,
                     input.code,
                     input.value,
-                    input.tick + 1,
-                    (input.tick + 1) as f64 * STEP_S
+                    input.tick.saturating_add(1),
+                    input.tick.saturating_add(1) as f64 * STEP_S
                 )
             }
         }

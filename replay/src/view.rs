@@ -21,26 +21,27 @@
 //! rendering for the eye, in single precision where rerun has nothing else: the log is the truth.
 
 mod airframe;
+mod file;
 mod layout;
 mod plots;
+mod scene;
 mod scenery;
 
-use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use engine::frames::{Attitude, Body, Ned, Structural, Vec3};
-use engine::math::{cos, sin};
+use engine::frames::{Ned, Vec3};
 use engine::pair::Pair;
-use engine::state::Geodetic;
 use engine::{Outputs, STEP_NS};
+use rerun::external::re_log_encoding::rrd::EncodeError;
+use rerun::sink::SinkFlushError;
 use rerun::{
-    Arrows3D, GeoLineStrings, GeoPoints, LineStrips3D, Quaternion, Radius, RecordingStream,
-    Scalars, SerializedComponentColumn, StateChange, StateConfiguration, TextLog, TimeColumn,
-    Transform3D, ViewCoordinates,
+    LineStrips3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError,
+    RecordingStreamResult, Scalars, StateChange, TextLog, TimeColumn,
 };
 
+use file::RrdFile;
 use plots::{MODES, PLOTS};
+use scene::{Columns, PathPoint, moving_columns, point, send_path, send_still_life};
 
 /// Of this many ticks one is drawn: 50 Hz.
 const TICKS_PER_ROW: u64 = 5;
@@ -50,10 +51,6 @@ const ROWS_PER_CHUNK: usize = 500;
 const ROWS_PER_PIECE: usize = 5;
 /// The path is thinned by half when it has more points than this.
 const PATH_POINTS_MAX: usize = 8192;
-/// Posts under the path, at most.
-const POSTS_MAX: usize = 60;
-/// An arrow is this long per newton: a rotor that hovers has one of 4 m.
-const ARROW_M_PER_N: f64 = 1.0 / 7000.0;
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
 /// Nanoseconds of the timeline that the viewer opens on.
@@ -65,29 +62,29 @@ const SIDES: Pair<u32> = Pair { left: 0xE0_4A_3F_FF, right: 0x3F_B9_5A_FF };
 /// Why a flight could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewError {
-    /// The recording could not be begun or fed.
-    #[error("cannot write the recording {path}: {source}")]
-    Recording {
+    /// The file could not be made, or did not take everything: disk full, or taken away.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// Which file.
+        path: PathBuf,
+        /// What rerun, or through it the system, says.
+        source: EncodeError,
+    },
+    /// Rerun refused something.
+    #[error("cannot draw the flight for {}: {source}", path.display())]
+    Draw {
         /// Which file.
         path: PathBuf,
         /// What rerun says.
-        source: Box<rerun::RecordingStreamError>,
+        source: Box<RecordingStreamError>,
     },
-    /// The file did not take everything: disk full, or taken away.
-    #[error("the recording {path} is incomplete: {reason}")]
-    Incomplete {
+    /// Rerun stopped before everything was written.
+    #[error("the recording {} is incomplete: {source}", path.display())]
+    Flush {
         /// Which file.
         path: PathBuf,
         /// What rerun says.
-        reason: String,
-    },
-    /// The finished file cannot be looked at.
-    #[error("cannot read back the recording {path}: {source}")]
-    ReadBack {
-        /// Which file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
+        source: SinkFlushError,
     },
 }
 
@@ -112,60 +109,34 @@ impl Level {
     }
 }
 
-/// A point of the path.
-#[derive(Clone, Copy)]
-struct PathPoint {
-    position_m: Vec3<Ned>,
-    ground_z_m: f64,
-    place: Geodetic,
-}
-
-impl PathPoint {
-    fn new(outputs: &Outputs) -> Self {
-        Self {
-            position_m: outputs.position_m,
-            ground_z_m: outputs.position_m.z + outputs.height_above_ground_m,
-            place: outputs.place,
-        }
-    }
-
-    fn on_ground_m(&self) -> Vec3<Ned> {
-        Vec3::new(self.position_m.x, self.position_m.y, self.ground_z_m)
-    }
-}
-
 /// Draws a flight into an `.rrd` file while it is flown or reflown.
 ///
-/// Memory stays bounded however long the flight is. The first error is kept and told by
-/// [`finish`](Self::finish), so that drawing never stops a flight.
+/// Memory hardly grows with the flight: ten seconds of rows, a path that is thinned, and rerun's
+/// index of the file. The first error is kept and told by [`finish`](Self::finish), so that drawing
+/// never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
+/// the whole path.
 pub struct FlightView {
     recording: RecordingStream,
+    file: RrdFile,
     path: PathBuf,
     rows: Vec<Outputs>,
     flown_to_m: Option<Vec3<Ned>>,
     modes: Vec<Option<&'static str>>,
     trail: Vec<PathPoint>,
     trail_spacing_m: f64,
-    error: Option<rerun::RecordingStreamError>,
+    error: Option<RecordingStreamError>,
 }
 
 impl FlightView {
     /// Begins the file at `path`, with everything that does not move and the viewer's layout.
     pub fn new(path: &Path, title: &str) -> Result<Self, ViewError> {
-        let failed = |source| ViewError::Recording { path: path.into(), source: Box::new(source) };
-        // Properties are sent by name only: rerun would add the wall clock.
-        let recording = rerun::RecordingStreamBuilder::new("tiltrotor")
-            .enabled(true)
-            .send_properties(false)
-            .save(path)
-            .map_err(failed)?;
-        recording.set_log_time_enabled(false);
-        recording.set_log_tick_enabled(false);
-        recording.send_recording_name(title).map_err(failed)?;
-        send_still_life(&recording).map_err(failed)?;
-        layout::send(&recording).map_err(failed)?;
+        let file = RrdFile::create(path)
+            .map_err(|source| ViewError::Write { path: path.into(), source })?;
+        let recording = begin(&file, title)
+            .map_err(|source| ViewError::Draw { path: path.into(), source: Box::new(source) })?;
         Ok(Self {
             recording,
+            file,
             path: path.into(),
             rows: Vec::with_capacity(ROWS_PER_CHUNK),
             flown_to_m: None,
@@ -201,22 +172,20 @@ impl FlightView {
     /// Writes what is left and closes the file; its size in bytes.
     pub fn finish(mut self) -> Result<u64, ViewError> {
         self.flush();
-        let path = std::mem::take(&mut self.path);
-        if let Err(source) = send_path(&self.recording, &self.trail) {
+        let ended =
+            send_path(&self.recording, &self.trail).and_then(|()| layout::send(&self.recording, 2));
+        if let Err(source) = ended {
             self.error.get_or_insert(source);
         }
-        if let Some(source) = self.error.take() {
-            return Err(ViewError::Recording { path, source: Box::new(source) });
-        }
-        if let Err(source) = self.recording.flush_blocking() {
-            return Err(ViewError::Incomplete { path, reason: source.to_string() });
-        }
-        // Closes the file and waits for its footer, whose failure rerun only logs.
-        self.recording.disconnect();
-        match whole_length(&path) {
-            Ok(Some(bytes)) => Ok(bytes),
-            Ok(None) => Err(ViewError::Incomplete { path, reason: "it has no end".into() }),
-            Err(source) => Err(ViewError::ReadBack { path, source }),
+        // Waits until everything is in the file.
+        let flushed = self.recording.flush_blocking();
+        let Self { file, path, error, .. } = self;
+        let closed = file.close().and_then(|()| Ok(std::fs::metadata(&path)?.len()));
+        match (closed, error, flushed) {
+            (Err(source), ..) => Err(ViewError::Write { path, source }),
+            (_, Some(source), _) => Err(ViewError::Draw { path, source: Box::new(source) }),
+            (.., Err(source)) => Err(ViewError::Flush { path, source }),
+            (Ok(bytes), None, Ok(())) => Ok(bytes),
         }
     }
 
@@ -277,12 +246,7 @@ impl FlightView {
         self.send("world/flown", &times(&ticks), columns);
     }
 
-    fn send(
-        &mut self,
-        entity: &str,
-        times: &[TimeColumn],
-        columns: rerun::SerializationResult<Vec<SerializedComponentColumn>>,
-    ) {
+    fn send(&mut self, entity: &str, times: &[TimeColumn], columns: Columns) {
         let sent = columns.map_err(Into::into).and_then(|columns| {
             self.recording.send_columns(entity, times.iter().cloned(), columns)
         });
@@ -292,19 +256,18 @@ impl FlightView {
     }
 }
 
-/// Length of a file that has its footer; nothing for one without.
-fn whole_length(path: &Path) -> std::io::Result<Option<u64>> {
-    // The last twelve bytes: a checksum's end, this, and a count.
-    const FOOTER: &[u8] = b"FOOT";
-    let mut file = File::open(path)?;
-    let bytes = file.metadata()?.len();
-    let mut end = [0; 12];
-    if bytes < end.len() as u64 {
-        return Ok(None);
-    }
-    file.seek(SeekFrom::End(-(end.len() as i64)))?;
-    file.read_exact(&mut end)?;
-    Ok(end.windows(FOOTER.len()).any(|bytes| bytes == FOOTER).then_some(bytes))
+/// A recording into `file` that knows no wall clock, with everything that does not move.
+fn begin(file: &RrdFile, title: &str) -> RecordingStreamResult<RecordingStream> {
+    // Of its properties only the name is sent: rerun would add when it began.
+    let recording =
+        RecordingStreamBuilder::new("tiltrotor").enabled(true).send_properties(false).buffered()?;
+    recording.set_sink(Box::new(file.clone()));
+    recording.set_log_time_enabled(false);
+    recording.set_log_tick_enabled(false);
+    recording.send_recording_name(title)?;
+    send_still_life(&recording)?;
+    layout::send(&recording, 1)?;
+    Ok(recording)
 }
 
 /// Both timelines of some rows.
@@ -319,203 +282,12 @@ fn times(ticks: &[u64]) -> [TimeColumn; 2] {
     ]
 }
 
-type Columns = rerun::SerializationResult<Vec<SerializedComponentColumn>>;
-
-/// Everything in the world that moves.
-fn moving_columns(rows: &[Outputs]) -> Vec<(&'static str, Columns)> {
-    let pose = |position: fn(&Outputs) -> [f32; 3], attitude: fn(&Outputs) -> Quaternion| {
-        Transform3D::new()
-            .with_many_translation(rows.iter().map(position))
-            .with_many_quaternion(rows.iter().map(attitude))
-            .columns_of_unit_batches()
-            .map(Vec::from_iter)
-    };
-    let thrust = |hub: fn(&Outputs) -> Vec3<Body>, force: fn(&Outputs) -> Vec3<Body>| {
-        Arrows3D::from_vectors(rows.iter().map(|row| point(force(row) * ARROW_M_PER_N)))
-            .with_origins(rows.iter().map(|row| point(hub(row))))
-            .columns_of_unit_batches()
-            .map(Vec::from_iter)
-    };
-    let plumb = LineStrips3D::new(rows.iter().map(|row| {
-        let below = PathPoint::new(row);
-        [point(below.position_m), point(below.on_ground_m())]
-    }));
-    let track = GeoPoints::from_lat_lon(rows.iter().map(|row| degrees(&row.place)));
-    vec![
-        ("world/ground", pose(|row| under(row, scenery::PLANE_STEP_M), |_| Quaternion::IDENTITY)),
-        ("world/grid", pose(|row| under(row, scenery::GRID_STEP_M), |_| Quaternion::IDENTITY)),
-        ("world/chase", pose(|row| point(row.position_m), |row| turn(row.euler.heading_rad))),
-        ("world/aircraft", pose(|row| point(row.position_m), attitude)),
-        ("world/aircraft/airframe", pose(datum, |_| Quaternion::IDENTITY)),
-        (
-            "world/aircraft/airframe/nacelle_left",
-            pose(|_| airframe::PIVOT_M.left, |row| tilt(row.actuators.mast_tilt_rad.left)),
-        ),
-        (
-            "world/aircraft/airframe/nacelle_right",
-            pose(|_| airframe::PIVOT_M.right, |row| tilt(row.actuators.mast_tilt_rad.right)),
-        ),
-        (
-            "world/aircraft/airframe/nacelle_left/rotor_left",
-            pose(|_| airframe::HUB_M, |row| turn(row.rotor_azimuth_rad)),
-        ),
-        (
-            "world/aircraft/airframe/nacelle_right/rotor_right",
-            pose(|_| airframe::HUB_M, |row| turn(-row.rotor_azimuth_rad)),
-        ),
-        ("world/aircraft/airframe/gear", pose(gear, |_| Quaternion::IDENTITY)),
-        (
-            "world/aircraft/thrust_left",
-            thrust(|row| hub(row).left, |row| row.rotors.left.load.force_n),
-        ),
-        (
-            "world/aircraft/thrust_right",
-            thrust(|row| hub(row).right, |row| row.rotors.right.load.force_n),
-        ),
-        ("world/plumb", plumb.columns_of_unit_batches().map(Vec::from_iter)),
-        ("map/aircraft", track.columns_of_unit_batches().map(Vec::from_iter)),
-    ]
-}
-
-fn point<F>(v: Vec3<F>) -> [f32; 3] {
-    [v.x as f32, v.y as f32, v.z as f32]
-}
-
-fn degrees(place: &Geodetic) -> [f64; 2] {
-    [place.latitude_rad.to_degrees(), place.longitude_rad.to_degrees()]
-}
-
-fn attitude(outputs: &Outputs) -> Quaternion {
-    let Attitude { w, x, y, z } = Attitude::from_euler(outputs.euler);
-    Quaternion::from_xyzw([x as f32, y as f32, z as f32, w as f32])
-}
-
-/// On the ground under the aircraft, to whole steps: what repeats every step seems to stand still.
-fn under(outputs: &Outputs, step_m: f64) -> [f32; 3] {
-    let Vec3 { x, y, z, .. } = PathPoint::new(outputs).on_ground_m();
-    let whole = |along_m: f64| (along_m / step_m).round() * step_m;
-    point(Vec3::<Ned>::new(whole(x), whole(y), z))
-}
-
-/// Where the drawing's datum is, in body axes.
-fn datum(outputs: &Outputs) -> [f32; 3] {
-    point(Vec3::<Structural>::zero().from_cg(outputs.balance.cg_m))
-}
-
-/// The hubs, in body axes.
-fn hub(outputs: &Outputs) -> Pair<Vec3<Body>> {
-    let datum = Vec3::<Structural>::zero().from_cg(outputs.balance.cg_m);
-    airframe::PIVOT_M.zip(outputs.actuators.mast_tilt_rad).map(|([x, y, z], tilt_rad)| {
-        let pivot = datum + Vec3::new(f64::from(x), f64::from(y), f64::from(z));
-        pivot + Vec3::new(sin(tilt_rad), 0.0, -cos(tilt_rad)) * airframe::MAST_M
-    })
-}
-
-/// A nacelle: tilting forward is a turn about −y.
-fn tilt(mast_tilt_rad: f64) -> Quaternion {
-    let half_rad = -0.5 * mast_tilt_rad;
-    Quaternion::from_xyzw([0.0, sin(half_rad) as f32, 0.0, cos(half_rad) as f32])
-}
-
-/// About z, down: a rotor on its mast, a heading.
-fn turn(angle_rad: f64) -> Quaternion {
-    let half_rad = 0.5 * angle_rad;
-    Quaternion::from_xyzw([0.0, 0.0, sin(half_rad) as f32, cos(half_rad) as f32])
-}
-
-/// The gear: retracted it is inside the fuselage and its pods.
-fn gear(outputs: &Outputs) -> [f32; 3] {
-    let up = 1.0 - outputs.actuators.gear_extension_norm;
-    [0.0, 0.0, -up as f32 * airframe::GEAR_TRAVEL_M]
-}
-
-/// Sends what does not move: shapes, colours, names.
-fn send_still_life(recording: &RecordingStream) -> rerun::RecordingStreamResult<()> {
-    recording.log_static("world", &ViewCoordinates::FRD())?;
-    recording.log_static("world/ground", &scenery::plane())?;
-    recording.log_static("world/ground/lines", &scenery::far_lines())?;
-    recording.log_static("world/grid", &scenery::near_lines())?;
-    recording.log_static("world/pad", &scenery::pad())?;
-    recording.log_static("world/aircraft/airframe", &airframe::airframe().mesh())?;
-    recording.log_static("world/aircraft/airframe/gear", &airframe::gear().mesh())?;
-    for (side, colour) in [("left", SIDES.left), ("right", SIDES.right)] {
-        let nacelle = format!("world/aircraft/airframe/nacelle_{side}");
-        recording.log_static(nacelle.as_str(), &airframe::nacelle().mesh())?;
-        let rotor = format!("{nacelle}/rotor_{side}");
-        recording.log_static(rotor.as_str(), &airframe::blades().mesh())?;
-        recording.log_static(format!("{rotor}/disc"), &airframe::disc(colour))?;
-        recording.log_static(
-            format!("world/aircraft/thrust_{side}"),
-            &Arrows3D::update_fields().with_radii([0.11]).with_colors([colour]),
-        )?;
-    }
-    recording.log_static(
-        "world/flown",
-        &LineStrips3D::update_fields()
-            .with_radii([Radius::new_ui_points(2.5)])
-            .with_colors([0xFF_C2_3A_FF]),
-    )?;
-    recording.log_static(
-        "world/plumb",
-        &LineStrips3D::update_fields()
-            .with_radii([Radius::new_ui_points(0.7)])
-            .with_colors([0xFF_FF_FF_90]),
-    )?;
-    recording.log_static(
-        "map/aircraft",
-        &GeoPoints::update_fields()
-            .with_radii([Radius::new_ui_points(7.0)])
-            .with_colors([0xFF_C2_3A_FF]),
-    )?;
-    for plot in PLOTS {
-        recording.log_static(
-            plot.path,
-            &rerun::SeriesLines::new()
-                .with_names([plot.name])
-                .with_colors([plot.colour])
-                .with_widths([plot.width()]),
-        )?;
-    }
-    for mode in MODES {
-        let (values, colours): (Vec<&str>, Vec<u32>) = mode.values.iter().copied().unzip();
-        recording.log_static(
-            mode.path,
-            &StateConfiguration::new().with_values(values).with_colors(colours),
-        )?;
-    }
-    Ok(())
-}
-
-/// Sends what is known only at the end: the whole path.
-fn send_path(recording: &RecordingStream, trail: &[PathPoint]) -> rerun::RecordingStreamResult<()> {
-    let path = trail.iter().map(|at| point(at.position_m));
-    recording.log_static(
-        "world/path",
-        &LineStrips3D::new([path.collect::<Vec<_>>()])
-            .with_radii([Radius::new_ui_points(1.0)])
-            .with_colors([0x7F_D0_FF_FF]),
-    )?;
-    let spacing = (trail.len() / POSTS_MAX).max(20);
-    let posts = trail.iter().step_by(spacing);
-    recording.log_static(
-        "world/path/posts",
-        &LineStrips3D::new(posts.map(|at| [point(at.position_m), point(at.on_ground_m())]))
-            .with_radii([Radius::new_ui_points(0.5)])
-            .with_colors([0x7F_D0_FF_60]),
-    )?;
-    recording.log_static(
-        "map/track",
-        &GeoLineStrings::from_lat_lon([trail.iter().map(|at| degrees(&at.place))])
-            .with_radii([Radius::new_ui_points(1.5)])
-            .with_colors([0x7F_D0_FF_FF]),
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use engine::frames::Euler;
-    use engine::math::{FRAC_PI_2, clamp, ramp};
+    use engine::math::{FRAC_PI_2, clamp, cos, ramp, sin};
+    use engine::state::Geodetic;
 
     const SECOND: u64 = 250;
 
@@ -613,16 +385,6 @@ mod tests {
     }
 
     #[test]
-    fn a_file_without_its_end_is_not_whole() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let path = folder.path().join("flight.rrd");
-        let bytes = draw(&path, SECOND);
-        let file = File::options().write(true).open(&path).expect("the file");
-        file.set_len(bytes - 100).expect("a shorter file");
-        assert!(matches!(whole_length(&path), Ok(None)));
-    }
-
-    #[test]
     fn a_long_flight_keeps_a_short_path() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut view = FlightView::new(&folder.path().join("long.rrd"), "long").expect("a file");
@@ -638,6 +400,6 @@ mod tests {
     #[test]
     fn a_file_that_cannot_be_made_is_told() {
         let missing = Path::new("/nonexistent/folder/flight.rrd");
-        assert!(matches!(FlightView::new(missing, "x"), Err(ViewError::Recording { .. })));
+        assert!(matches!(FlightView::new(missing, "x"), Err(ViewError::Write { .. })));
     }
 }

@@ -7,7 +7,7 @@
 //! pitch: −K_q·q − K_θ·(θ − θ_h) + (f_q − 1)·w_aft           within ± its authority
 //! roll:  −K_p·p − K_φ·(φ − φ_h) + (f_p − 1)·w_right
 //! yaw:   −K_r·(r − g·sin φ·cos θ/V) + (f_r − 1)·w_pedal
-//! hold:  θ_h, φ_h follow the attitude while the stick moves, stand while it rests
+//! hold:  θ_h, φ_h follow the attitude while the stick moves or the axis is off, stand while it rests
 //! ```
 //! Gains fall with dynamic pressure by 1/(1 + q̄/q̄0).
 //! # Signs
@@ -36,7 +36,7 @@ pub struct Params {
     pub washout_s: f64,
     /// Stick further than this from its mean position is being moved.
     pub hold_stick_m: f64,
-    /// How fast the held attitude follows while the stick moves.
+    /// How fast the held attitude follows while it does.
     pub hold_follow_s: f64,
     /// q̄0.
     pub dynamic_pressure_pa: f64,
@@ -109,8 +109,8 @@ pub fn update(
         pedal_right_m: sticks.pedal_right_m - state.mean_pedal_right_m,
     };
     let wash = STEP_S / params.washout_s;
-    let follow = |held_rad: f64, attitude_rad: f64, moved_m: f64| {
-        let rests = moved_m.abs() < params.hold_stick_m && !sensed.weight_on_wheels;
+    let follow = |works: bool, held_rad: f64, attitude_rad: f64, moved_m: f64| {
+        let rests = works && moved_m.abs() < params.hold_stick_m && !sensed.weight_on_wheels;
         let step = if rests { 0.0 } else { min(1.0, STEP_S / params.hold_follow_s) };
         wrap_angle(held_rad + step * wrap_angle(attitude_rad - held_rad))
     };
@@ -118,8 +118,13 @@ pub fn update(
         mean_aft_m: state.mean_aft_m + wash * washed.aft_m,
         mean_right_m: state.mean_right_m + wash * washed.right_m,
         mean_pedal_right_m: state.mean_pedal_right_m + wash * washed.pedal_right_m,
-        held_pitch_rad: follow(state.held_pitch_rad, sensed.euler.pitch_rad, washed.aft_m),
-        held_roll_rad: follow(state.held_roll_rad, sensed.euler.roll_rad, washed.right_m),
+        held_pitch_rad: follow(
+            on.pitch,
+            state.held_pitch_rad,
+            sensed.euler.pitch_rad,
+            washed.aft_m,
+        ),
+        held_roll_rad: follow(on.roll, state.held_roll_rad, sensed.euler.roll_rad, washed.right_m),
     };
 
     let scale = 1.0 / (1.0 + sensed.dynamic_pressure_pa / params.dynamic_pressure_pa);

@@ -15,16 +15,17 @@
 //! blueprint kind, so this does the same with the archetypes themselves, which it exports.
 
 use rerun::blueprint::components::{
-    ActiveTab, BackgroundKind, ColumnShare, ContainerKind, Corner2D, Eye3DKind, LinkAxis,
-    PanelState, RowShare, ViewClass,
+    ActiveTab, BackgroundKind, ColumnShare, ContainerKind, Corner2D, Eye3DKind, PanelState,
+    RowShare, ViewClass,
 };
 use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
     Background, ContainerBlueprint, EyeControls3D, LineGrid3D, PanelBlueprint, PlotLegend,
-    TimeAxis, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
+    TextLogColumns, TimeAxis, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
     VisibleTimeRanges,
 };
-use rerun::external::re_sdk_types::blueprint::components::{RootContainer, TimelineName};
+use rerun::external::re_sdk_types::blueprint::components::{self, RootContainer, TimelineName};
+use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
 use rerun::external::re_sdk_types::datatypes::{
     TimeInt, TimeRange, TimeRangeBoundary, Uuid, VisibleTimeRange,
 };
@@ -33,12 +34,18 @@ use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStre
 /// How much of the line behind the aircraft is bright.
 const FLOWN_NS: i64 = 30_000_000_000;
 
+/// Without it the viewer shows a minute around the cursor.
+const WHOLE_FLIGHT: components::TimeRange = components::TimeRange(TimeRange::EVERYTHING);
+
 /// Name of a view or container in the blueprint.
 type Id = String;
 
+/// A plot's name, and the entities it shows.
+type Graph = (&'static str, &'static [&'static str]);
+
 /// Tabs of plots, each with its plots from top to bottom.
 #[rustfmt::skip]
-const PLOT_TABS: &[(&str, &[(&str, &[&str])])] = &[
+const PLOT_TABS: &[(&str, &[Graph])] = &[
     ("Flight", &[
         ("height, m", &["plots/height_m"]),
         ("airspeed, kt", &["plots/airspeed_kt"]),
@@ -75,15 +82,21 @@ const PLOT_TABS: &[(&str, &[(&str, &[&str])])] = &[
 ];
 
 /// Sends the layout, and has the viewer use it.
-pub fn send(recording: &RecordingStream) -> RecordingStreamResult<()> {
+///
+/// A view fits its axes, map and eye to what is there when it first appears. So a layout is sent
+/// twice: at the start for a flight that never ends, and at the end, as other views (`edition`), to
+/// be fitted to the whole flight.
+pub fn send(recording: &RecordingStream, edition: u8) -> RecordingStreamResult<()> {
     let Some(about) = recording.store_info() else { return Ok(()) };
     let (stream, storage) = RecordingStreamBuilder::new(about.application_id().clone())
         .enabled(true)
+        .send_properties(false)
         .blueprint()
         .memory()?;
+    stream.set_log_time_enabled(false);
     // How the viewer knows a blueprint's data.
     stream.set_time_sequence("blueprint", 0);
-    let mut page = Page { stream, named: 0 };
+    let mut page = Page { stream, edition, named: 0 };
     let root = page.root()?;
     page.panels(root)?;
 
@@ -101,6 +114,7 @@ pub fn send(recording: &RecordingStream) -> RecordingStreamResult<()> {
 /// A layout that grows.
 struct Page {
     stream: RecordingStream,
+    edition: u8,
     named: u8,
 }
 
@@ -126,7 +140,16 @@ impl Page {
         let above =
             self.container(ContainerKind::Horizontal, "Flight", &[left, right], &[11.0, 10.0])?;
 
-        let events = self.view("TextLog", "Events", "/events", &["$origin/**"], &[])?;
+        let columns = TextLogColumns::new().with_text_log_columns(
+            [TextLogColumnKind::LogLevel, TextLogColumnKind::Body].map(column),
+        );
+        let events = self.view(
+            "TextLog",
+            "Events",
+            "/events",
+            &["$origin/**"],
+            &[("TextLogColumns", &columns)],
+        )?;
         let modes = self.view("StateTimeline", "Modes", "/modes", &["$origin/**"], &[])?;
         let below =
             self.container(ContainerKind::Horizontal, "Story", &[events, modes], &[11.0, 10.0])?;
@@ -182,7 +205,7 @@ impl Page {
         let queries: Vec<String> = paths.iter().map(|path| format!("/{path}/**")).collect();
         let queries: Vec<&str> = queries.iter().map(String::as_str).collect();
         let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
-        let axis = TimeAxis::new().with_link(LinkAxis::LinkToGlobal);
+        let axis = TimeAxis::new().with_view_range(WHOLE_FLIGHT);
         let properties: &[(&str, &dyn AsComponents)] =
             &[("PlotLegend", &legend), ("TimeAxis", &axis)];
         self.view("TimeSeries", name, "/plots", &queries, properties)
@@ -265,9 +288,14 @@ impl Page {
     fn id(&mut self) -> Uuid {
         self.named += 1;
         let mut bytes = *b"tiltrotor-view\0\0";
+        bytes[14] = self.edition;
         bytes[15] = self.named;
         Uuid { bytes }
     }
+}
+
+fn column(kind: TextLogColumnKind) -> TextLogColumn {
+    TextLogColumn { kind, visible: true.into() }
 }
 
 fn hyphenated(id: Uuid) -> String {

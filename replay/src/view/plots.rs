@@ -12,6 +12,8 @@ pub struct Plot {
     pub name: &'static str,
     /// RGBA.
     pub colour: u32,
+    /// Broad where it lies below another that may equal it: left below right.
+    pub width: f32,
     /// Its value.
     pub of: fn(&Outputs) -> f64,
 }
@@ -26,13 +28,6 @@ pub struct Mode {
     pub of: fn(&Outputs) -> &'static str,
 }
 
-impl Plot {
-    /// Left is drawn broad, below right: where both are equal, both are seen.
-    pub fn width(&self) -> f32 {
-        if self.colour == LEFT { 3.5 } else { 1.5 }
-    }
-}
-
 const KNOTS_PER_MPS: f64 = 3600.0 / 1852.0;
 const FT_PER_MIN_PER_MPS: f64 = 60.0 / 0.3048;
 const RPM_PER_RADPS: f64 = 60.0 / engine::math::TAU;
@@ -45,21 +40,22 @@ const VIOLET: u32 = 0xB6_8C_F0_FF;
 const WHITE: u32 = 0xE6_E6_E6_FF;
 const GREY: u32 = 0x8C_8C_8C_FF;
 
-const fn plot(
-    path: &'static str,
-    name: &'static str,
-    colour: u32,
-    of: fn(&Outputs) -> f64,
-) -> Plot {
-    Plot { path, name, colour, of }
+type Value = fn(&Outputs) -> f64;
+
+const fn plot(path: &'static str, name: &'static str, colour: u32, of: Value) -> Plot {
+    Plot { path, name, colour, width: 1.5, of }
+}
+
+const fn broad(path: &'static str, name: &'static str, colour: u32, of: Value) -> Plot {
+    Plot { path, name, colour, width: 3.5, of }
 }
 
 /// Everything plotted.
 #[rustfmt::skip]
 pub const PLOTS: &[Plot] = &[
-    plot("plots/height_m/above_ground", "above ground", ORANGE, |o| o.height_above_ground_m),
+    broad("plots/height_m/above_ground", "above ground", ORANGE, |o| o.height_above_ground_m),
     plot("plots/height_m/above_sea", "above sea", BLUE, |o| o.place.height_m),
-    plot("plots/airspeed_kt/calibrated", "calibrated", BLUE, |o| o.calibrated_airspeed_mps * KNOTS_PER_MPS),
+    broad("plots/airspeed_kt/calibrated", "calibrated", BLUE, |o| o.calibrated_airspeed_mps * KNOTS_PER_MPS),
     plot("plots/airspeed_kt/true", "true", GREY, |o| o.airspeed_mps * KNOTS_PER_MPS),
     plot("plots/climb_ft_per_min", "climb", ORANGE, |o| -o.velocity_mps.z * FT_PER_MIN_PER_MPS),
     plot("plots/attitude_deg/roll", "roll, right +", BLUE, |o| o.euler.roll_rad.to_degrees()),
@@ -75,29 +71,29 @@ pub const PLOTS: &[Plot] = &[
     plot("plots/pilot/stick_right", "stick right", BLUE, |o| o.cockpit.stick_right_norm),
     plot("plots/pilot/collective", "collective", WHITE, |o| o.cockpit.collective_norm),
     plot("plots/pilot/pedal_right", "right pedal", VIOLET, |o| o.cockpit.pedal_right_norm),
-    plot("plots/nacelle_deg/left", "left, 90 = helicopter", LEFT, |o| incidence_deg(o).left),
+    broad("plots/nacelle_deg/left", "left, 90 = helicopter", LEFT, |o| incidence_deg(o).left),
     plot("plots/nacelle_deg/right", "right", RIGHT, |o| incidence_deg(o).right),
     plot("plots/surfaces_deg/flap", "flap", WHITE, |o| o.actuators.flap_rad.to_degrees()),
-    plot("plots/surfaces_deg/flaperon_left", "left flaperon", LEFT, |o| o.actuators.flaperon_rad.left.to_degrees()),
+    broad("plots/surfaces_deg/flaperon_left", "left flaperon", LEFT, |o| o.actuators.flaperon_rad.left.to_degrees()),
     plot("plots/surfaces_deg/flaperon_right", "right flaperon", RIGHT, |o| o.actuators.flaperon_rad.right.to_degrees()),
     plot("plots/surfaces_deg/elevator", "elevator", ORANGE, |o| o.actuators.elevator_rad.to_degrees()),
     plot("plots/surfaces_deg/rudder", "rudder right", VIOLET, |o| o.actuators.rudder_right_rad.to_degrees()),
-    plot("plots/blades_deg/collective_left", "left collective", LEFT, |o| o.actuators.collective_rad.left.to_degrees()),
+    broad("plots/blades_deg/collective_left", "left collective", LEFT, |o| o.actuators.collective_rad.left.to_degrees()),
     plot("plots/blades_deg/collective_right", "right collective", RIGHT, |o| o.actuators.collective_rad.right.to_degrees()),
-    plot("plots/cyclic_deg/left", "left, forward +", LEFT, |o| o.actuators.cyclic_forward_rad.left.to_degrees()),
+    broad("plots/cyclic_deg/left", "left, forward +", LEFT, |o| o.actuators.cyclic_forward_rad.left.to_degrees()),
     plot("plots/cyclic_deg/right", "right", RIGHT, |o| o.actuators.cyclic_forward_rad.right.to_degrees()),
     plot("plots/rotor_rpm", "rotors", WHITE, |o| o.rotor_speed_radps * RPM_PER_RADPS),
-    plot("plots/power_kW/left", "left", LEFT, |o| 1e-3 * o.engines.power_w.left),
+    broad("plots/power_kW/left", "left", LEFT, |o| 1e-3 * o.engines.power_w.left),
     plot("plots/power_kW/right", "right", RIGHT, |o| 1e-3 * o.engines.power_w.right),
     plot("plots/power_kW/available", "available", GREY, |o| 1e-3 * o.engines.available_w),
-    plot("plots/thrust_kN/left", "left", LEFT, |o| 1e-3 * o.rotors.left.thrust_n),
+    broad("plots/thrust_kN/left", "left", LEFT, |o| 1e-3 * o.rotors.left.thrust_n),
     plot("plots/thrust_kN/right", "right", RIGHT, |o| 1e-3 * o.rotors.right.thrust_n),
-    plot("plots/torque_kNm/left", "left", LEFT, |o| 1e-3 * o.rotors.left.torque_n_m),
+    broad("plots/torque_kNm/left", "left", LEFT, |o| 1e-3 * o.rotors.left.torque_n_m),
     plot("plots/torque_kNm/right", "right", RIGHT, |o| 1e-3 * o.rotors.right.torque_n_m),
-    plot("plots/induced_mps/left", "left", LEFT, |o| o.rotors.left.induced_mps),
+    broad("plots/induced_mps/left", "left", LEFT, |o| o.rotors.left.induced_mps),
     plot("plots/induced_mps/right", "right", RIGHT, |o| o.rotors.right.induced_mps),
     plot("plots/gear/push_kN/nose", "nose", BLUE, |o| 1e-3 * o.landing_gear.nose.push_n),
-    plot("plots/gear/push_kN/left", "left", LEFT, |o| 1e-3 * o.landing_gear.main.left.push_n),
+    broad("plots/gear/push_kN/left", "left", LEFT, |o| 1e-3 * o.landing_gear.main.left.push_n),
     plot("plots/gear/push_kN/right", "right", RIGHT, |o| 1e-3 * o.landing_gear.main.right.push_n),
     plot("plots/gear/extension", "gear, 1 = down", WHITE, |o| o.actuators.gear_extension_norm),
     plot("plots/fuel_kg", "fuel", WHITE, |o| o.fuel_kg),

@@ -1,0 +1,161 @@
+//! Crates depend on each other as the design draws it, and on nothing more.
+//!
+//! Dependencies of tests and benchmarks do not count: they are in no program.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+/// Every arrow between crates. Only the command, the root package, knows all.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("engine", &[]),
+    ("aircraft", &["engine"]),
+    ("flightgear", &["engine"]),
+    ("logs", &["engine"]),
+    ("recorder", &["aircraft", "engine", "flightgear", "logs"]),
+    ("replay", &["aircraft", "engine", "logs"]),
+];
+
+/// Crates of others that one crate of ours alone may know.
+const KEPT: &[(&str, &str)] = &[
+    ("bincode", "logs"),
+    ("cdr-encoding", "logs"),
+    ("gilrs", "recorder"),
+    ("gilrs-core", "recorder"),
+    ("mcap", "logs"),
+    ("rerun", "replay"),
+    ("zerocopy", "flightgear"),
+];
+
+/// All that the engine may know of the world.
+const ENGINE_KNOWS: &[&str] = &["libm", "nalgebra", "serde"];
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn manifest(folder: &Path) -> Table {
+    let path = folder.join("Cargo.toml");
+    let text = fs::read_to_string(&path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    text.parse().unwrap_or_else(|why| panic!("{}: {why}", path.display()))
+}
+
+/// The workspace's members with their manifests; the root package is not among them.
+fn crates() -> BTreeMap<String, Table> {
+    let members = manifest(&root())["workspace"]["members"].as_array().expect("members").clone();
+    let member = |name: &Value| name.as_str().expect("a folder").to_string();
+    members.iter().map(member).map(|name| (name.clone(), manifest(&root().join(name)))).collect()
+}
+
+/// What a package is built from, under the names of the packages.
+fn dependencies(manifest: &Table) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut tables = vec![manifest];
+    let targets = manifest.get("target").and_then(Value::as_table);
+    tables.extend(targets.into_iter().flatten().filter_map(|(_, target)| target.as_table()));
+    for table in tables {
+        for kind in ["dependencies", "build-dependencies"] {
+            let Some(dependencies) = table.get(kind).and_then(Value::as_table) else { continue };
+            for (name, how) in dependencies {
+                let package = how.get("package").and_then(Value::as_str).unwrap_or(name);
+                found.insert(package.to_string());
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn every_arrow_between_crates_is_in_the_design() {
+    let crates = crates();
+    let drawn: BTreeSet<_> = ARROWS.iter().map(|(name, _)| (*name).to_string()).collect();
+    assert_eq!(crates.keys().cloned().collect::<BTreeSet<_>>(), drawn, "crates and the design");
+    let mut wrong = Vec::new();
+    for (name, allowed) in ARROWS {
+        for to in dependencies(&crates[*name]).intersection(&drawn) {
+            if !allowed.contains(&to.as_str()) {
+                wrong.push(format!("{name} → {to}: the design does not draw it"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn no_arrow_of_the_design_has_gone() {
+    let crates = crates();
+    for (name, arrows) in ARROWS {
+        let known = dependencies(&crates[*name]);
+        for to in *arrows {
+            assert!(known.contains(*to), "{name} → {to}: drawn, but not there");
+        }
+    }
+}
+
+#[test]
+fn a_format_and_a_device_and_a_viewer_are_known_to_one_crate_each() {
+    let mut everyone = crates();
+    everyone.insert("tiltrotor".into(), manifest(&root()));
+    let mut wrong = Vec::new();
+    for (name, manifest) in &everyone {
+        let known = dependencies(manifest);
+        for (theirs, keeper) in KEPT {
+            if known.contains(*theirs) && name != keeper {
+                wrong.push(format!("{name} → {theirs}: only {keeper} may"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    for (theirs, keeper) in KEPT.iter().filter(|(theirs, _)| *theirs != "gilrs") {
+        assert!(dependencies(&everyone[*keeper]).contains(*theirs), "{keeper} → {theirs}: gone?");
+    }
+}
+
+#[test]
+fn the_engine_knows_neither_the_standard_library_nor_anything_of_the_world() {
+    let engine = manifest(&root().join("engine"));
+    let allowed = ENGINE_KNOWS.iter().map(|name| (*name).to_string()).collect();
+    assert_eq!(dependencies(&engine), allowed);
+    let source = fs::read_to_string(root().join("engine/src/lib.rs")).expect("the engine");
+    assert!(source.lines().any(|line| line == "#![no_std]"), "engine: no_std");
+    assert!(!source.contains("extern crate std"), "engine: no way back to std");
+}
+
+#[test]
+fn the_engine_s_arithmetic_is_pinned() {
+    let workspace = manifest(&root());
+    let dependencies = &workspace["workspace"]["dependencies"];
+    let libm = dependencies["libm"].as_str().expect("a version");
+    assert!(libm.starts_with('='), "libm = \"{libm}\": its results change between versions");
+    let nalgebra = &dependencies["nalgebra"];
+    assert_eq!(nalgebra["default-features"].as_bool(), Some(false));
+    assert_eq!(nalgebra["features"], Value::from(vec!["libm-force"]));
+}
+
+#[test]
+fn unsafe_code_is_forbidden_everywhere() {
+    let workspace = manifest(&root());
+    let lint = &workspace["workspace"]["lints"]["rust"]["unsafe_code"];
+    assert_eq!(lint.as_str(), Some("forbid"));
+    let mut everyone = crates();
+    everyone.insert("tiltrotor".into(), workspace);
+    for (name, manifest) in everyone {
+        let inherits = manifest.get("lints").and_then(|lints| lints.get("workspace"));
+        assert_eq!(
+            inherits.and_then(Value::as_bool),
+            Some(true),
+            "{name}: [lints] workspace = true"
+        );
+    }
+}
+
+#[test]
+fn what_is_heavy_can_be_switched_off() {
+    let crates = crates();
+    for (name, heavy) in [("replay", "rerun"), ("recorder", "gilrs-core")] {
+        let optional = crates[name]["dependencies"][heavy].get("optional").and_then(Value::as_bool);
+        assert_eq!(optional, Some(true), "{name} → {heavy} is optional");
+    }
+}

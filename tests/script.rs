@@ -1,0 +1,198 @@
+//! A flight by script: timed events in TOML take the path that a stick takes.
+
+mod common;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use common::{OK, folder, text, tiltrotor, verify};
+use engine::inputs::{EventKind, World, failures};
+use logs::records::Happening;
+use logs::{FlightReader, Tick};
+
+const SCRIPT: &str = r#"
+[[event]]
+at_s = 0.5
+over_s = 1.0
+axis = { stick_aft = -0.4, collective = 0.5 }
+
+[[event]]
+at_s = 2.0
+press = ["marker", "gear_toggle"]
+wind = { from_deg = 270.0, kt = 20.0 }
+
+[[event]]
+at_s = 2.5
+hold = ["nacelle_aft"]
+
+[[event]]
+at_s = 2.6
+release = ["nacelle_aft"]
+
+[[event]]
+at_s = 3.0
+fail = ["engine_left", "scas_yaw"]
+
+[[event]]
+at_s = 3.5
+mend = ["scas_yaw"]
+pause = true
+
+[[event]]
+at_s = 3.8
+pause = false
+axis = { pedal_right = 0.25 }
+
+[[event]]
+at_s = 4.0
+press = ["marker"]
+end = true
+"#;
+
+/// Ticks of a moment of the script.
+const fn tick(ms: u64) -> u64 {
+    ms / 4
+}
+
+fn flight() -> &'static Path {
+    static LOG: OnceLock<PathBuf> = OnceLock::new();
+    LOG.get_or_init(|| {
+        let place = folder("script");
+        let (script, log) = (place.join("flight.toml"), place.join("flight.mcap"));
+        fs::write(&script, SCRIPT).expect("a script");
+        let (script, out) = (text(&script), text(&log));
+        tiltrotor(&["fly", "--script", script, "--fast", "--no-flightgear", "--out", out]).ends(OK);
+        log
+    })
+}
+
+fn ticks() -> (Vec<Tick>, FlightReader) {
+    let mut reader = FlightReader::open(flight()).expect("a log");
+    let mut ticks = Vec::new();
+    while let Some(tick) = reader.next_tick().expect("a tick") {
+        ticks.push(tick);
+    }
+    (ticks, reader)
+}
+
+#[test]
+fn a_script_flies_until_it_says_end_and_the_log_is_exact() {
+    // The event that ends the flight is still flown.
+    verify(flight()).ends(OK).says("exact: all 1001 ticks (4.0 s)");
+}
+
+#[test]
+fn what_a_script_does_is_told_by_log_info() {
+    tiltrotor(&["log", "info", text(flight())])
+        .ends(OK)
+        .says("2.004 s  marker 1")
+        .says("3.000 s  failures 0x11")
+        .says("3.500 s  failures 0x1\n")
+        .says("3.500 s  paused")
+        .says("3.800 s  goes on")
+        .says("4.004 s  marker 2")
+        .says("4.004 s  end of the flight");
+}
+
+#[test]
+fn the_events_of_a_script_are_recorded_at_their_ticks() {
+    let (_, reader) = ticks();
+    let told: Vec<_> = reader
+        .happenings
+        .iter()
+        .filter_map(|event| Some((event.tick, Happening::from_u64(event.kind)?, event.value)))
+        .filter(|(_, what, _)| !matches!(what, Happening::Validity | Happening::WeightOnWheels))
+        .collect();
+    let both = failures::ENGINE_LEFT | failures::SCAS_YAW;
+    assert_eq!(
+        told,
+        [
+            // A marker is counted by the step that got it.
+            (tick(2000) + 1, Happening::Marker, 1),
+            (tick(3000), Happening::Failures, both),
+            (tick(3500), Happening::Failures, failures::ENGINE_LEFT),
+            (tick(3500), Happening::Paused, 1),
+            (tick(3800), Happening::Paused, 0),
+            (tick(4000) + 1, Happening::Marker, 2),
+            (tick(4000) + 1, Happening::Landed, 0),
+        ]
+    );
+}
+
+#[test]
+fn an_axis_ramps_from_where_it_was_in_the_time_it_was_given() {
+    let (ticks, _) = ticks();
+    let at = |ms: u64| ticks[tick(ms) as usize].record.state.cockpit;
+    assert!(at(496).collective_norm.abs() < 1e-9);
+    assert!((at(1000).collective_norm - 0.25).abs() < 1e-3);
+    assert!((at(1000).stick_aft_norm + 0.2).abs() < 1e-3);
+    assert!((at(1600).collective_norm - 0.5).abs() < 1e-3);
+    assert!((at(1600).stick_aft_norm + 0.4).abs() < 1e-3);
+    assert!((at(4000).pedal_right_norm - 0.25).abs() < 1e-3, "at once");
+    let lever: Vec<_> =
+        ticks.iter().map(|tick| tick.record.state.cockpit.collective_norm).collect();
+    assert!(lever.windows(2).all(|pair| pair[0] <= pair[1]), "never back");
+}
+
+#[test]
+fn buttons_of_a_script_are_pressed_and_released_in_order() {
+    let (ticks, _) = ticks();
+    let buttons: Vec<_> = ticks
+        .iter()
+        .flat_map(|tick| &tick.events)
+        .filter(|event| event.kind == EventKind::Button as u64)
+        .map(|event| (event.tick, event.code, event.value))
+        .collect();
+    let (marker, gear, aft) = (0x128, 0x124, 0x121);
+    assert_eq!(
+        buttons,
+        [
+            (tick(2000), marker, 1),
+            (tick(2000), gear, 1),
+            (tick(2000), marker, 0),
+            (tick(2000), gear, 0),
+            (tick(2500), aft, 1),
+            (tick(2600), aft, 0),
+            (tick(4000), marker, 1),
+            (tick(4000), marker, 0),
+        ]
+    );
+}
+
+#[test]
+fn wind_from_the_west_blows_east_from_the_tick_it_was_ordered() {
+    let (ticks, _) = ticks();
+    let world = |ms: u64| -> World { ticks[tick(ms) as usize].inputs.world };
+    assert_eq!(world(1996).wind_mps.norm().to_bits(), 0.0_f64.to_bits());
+    let wind = world(2000).wind_mps;
+    assert!((wind.y - 20.0 * 1852.0 / 3600.0).abs() < 1e-9 && wind.x.abs() < 1e-9, "{wind:?}");
+}
+
+#[test]
+fn a_paused_aircraft_stands_still_while_ticks_go_on() {
+    let (ticks, _) = ticks();
+    let plant = |ms: u64| ticks[tick(ms) as usize].record.state.plant;
+    assert_eq!(plant(3500), plant(3796));
+    assert_ne!(plant(3492), plant(3496), "before");
+    assert_ne!(plant(3796), plant(3804), "after");
+}
+
+#[test]
+fn an_engine_failed_by_script_loses_its_power() {
+    let (ticks, _) = ticks();
+    let engines = ticks[tick(4000) as usize].record.state.plant.engines;
+    assert!(engines.left.power_w < 0.5 * engines.right.power_w, "{engines:?}");
+}
+
+#[test]
+fn the_same_script_gives_the_same_digest() {
+    let place = folder("script-again");
+    let (script, log) = (place.join("flight.toml"), place.join("again.mcap"));
+    fs::write(&script, SCRIPT).expect("a script");
+    let (script, out) = (text(&script), text(&log));
+    let again =
+        tiltrotor(&["fly", "--script", script, "--fast", "--no-flightgear", "--out", out]).ends(OK);
+    let first = tiltrotor(&["log", "info", text(flight())]).ends(OK);
+    assert!(again.out.contains(first.after("digest")), "{again}");
+}
