@@ -48,7 +48,7 @@ fn setup() -> Setup {
 fn flown(name: &str) -> (PathBuf, State) {
     let (aircraft, start) = ready();
     let pilot = Pilot::named("hover", &aircraft.cockpit).expect("it exists");
-    let initial = start.state(&aircraft);
+    let initial = start.state(&aircraft).expect("on its wheels");
     let out = scratch(name);
     let flight = Flight {
         aircraft,
@@ -73,7 +73,7 @@ fn flown(name: &str) -> (PathBuf, State) {
 #[divan::bench]
 fn one_tick(bencher: Bencher) {
     let (aircraft, start) = ready();
-    let mut state = start.state(&aircraft);
+    let mut state = start.state(&aircraft).expect("on its wheels");
     state.cockpit.collective_norm = 0.75;
     let inputs = Inputs { events: &[], world: World::default() };
     for _ in 0..2_000 {
@@ -87,7 +87,7 @@ fn one_tick(bencher: Bencher) {
 #[divan::bench(sample_size = 10)]
 fn hand_over_of_a_tick(bencher: Bencher) {
     let (aircraft, start) = ready();
-    let state = start.state(&aircraft);
+    let state = start.state(&aircraft).expect("on its wheels");
     let out = scratch("hand-over");
     let identity = Identity::new();
     let writer = FlightWriter::create(&out, &setup(), &identity, &aircraft, "", &state, true)

@@ -16,7 +16,7 @@ use recorder::pilots::{PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::{Flight, Landing, Progress, fly};
 
-use crate::{identity, report};
+use crate::{condition, identity, report};
 
 /// What flies, from where, and where it is recorded.
 #[derive(clap::Args)]
@@ -35,9 +35,38 @@ pub struct Args {
     map: Option<PathBuf>,
     #[command(flatten)]
     pub common: Common,
+    #[command(flatten)]
+    air: Air,
     /// End the flight after this long, s
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
+}
+
+/// The steady flight in which a flight begins.
+#[derive(clap::Args)]
+struct Air {
+    /// Begin in the air, in steady flight
+    #[arg(long)]
+    from_trim: bool,
+    /// Nacelle incidence of that flight: 90 helicopter, 0 aeroplane, deg
+    #[arg(long, value_name = "DEG", requires = "from_trim", default_value_t = 90.0)]
+    nacelle: f64,
+    /// True airspeed, kt
+    #[arg(long, value_name = "KT", requires = "from_trim", default_value_t = 0.0)]
+    speed_kt: f64,
+    /// Above mean sea level, ft
+    #[arg(long, value_name = "FT", requires = "from_trim", default_value_t = 1000.0)]
+    altitude_ft: f64,
+    /// Rate of climb, ft/min
+    #[arg(long, value_name = "FPM", requires = "from_trim", default_value_t = 0.0)]
+    #[arg(allow_negative_numbers = true)]
+    climb_fpm: f64,
+    /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
+    #[arg(long, value_name = "DEG", requires = "from_trim")]
+    flap: Option<f64>,
+    /// Rotor speed, rpm (without: the slowest below 1 deg of nacelle)
+    #[arg(long, value_name = "RPM", requires = "from_trim")]
+    rpm: Option<f64>,
 }
 
 /// What `fly` and `demo` have in common.
@@ -75,6 +104,9 @@ pub fn run(args: &Args) -> Result<ExitCode> {
             bail!("--duration {seconds}: expected {STEP_S} s (one tick) or more");
         }
         plan.flight.ticks_max = Some(ticks as u64);
+    }
+    if args.air.from_trim {
+        plan.begin_in(&args.air)?;
     }
     let virtual_hands = args.pilot.is_some() || args.script.is_some();
     if !args.stick && !virtual_hands {
@@ -147,6 +179,28 @@ impl Plan {
                 link,
             },
         })
+    }
+
+    /// Begins in steady flight: the scenario says so, and goes into the log with it.
+    fn begin_in(&mut self, air: &Air) -> Result<()> {
+        if self.flight.start.trim.is_some() {
+            bail!("--from-trim: the scenario begins in the air already, by its table [trim]");
+        }
+        let (aircraft, nacelle_deg) = (&self.flight.aircraft, air.nacelle);
+        let detent = condition::flap_detent(aircraft, air.flap, nacelle_deg)?;
+        let rpm_select = condition::rpm_select(aircraft, air.rpm, nacelle_deg)?;
+        let scenario = &mut self.flight.setup.scenario_toml;
+        scenario.push_str(&format!(
+            "\n[trim] # by --from-trim\nmast_tilt_deg = {:?}\nairspeed_kt = {:?}\n\
+             altitude_ft = {:?}\nclimb_fpm = {:?}\nflap_detent = {detent}\n\
+             rpm_select = {rpm_select}\nscas_on = 1\n",
+            90.0 - nacelle_deg,
+            air.speed_kt,
+            air.altitude_ft,
+            air.climb_fpm,
+        ));
+        self.flight.start = aircraft::start("scenario.toml", scenario)?;
+        Ok(())
     }
 
     /// Lets the pilot model of that name fly.
@@ -230,7 +284,8 @@ fn pilot_names() -> String {
     names.join("; ")
 }
 
-fn text_or(path: Option<&Path>, name: &str, built_in: &str) -> Result<(String, String)> {
+/// The text of a file, or the built-in one of that name.
+pub fn text_or(path: Option<&Path>, name: &str, built_in: &str) -> Result<(String, String)> {
     match path {
         Some(path) => Ok((name_of(path), read(path)?)),
         None => Ok((name.to_string(), built_in.to_string())),

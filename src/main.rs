@@ -16,12 +16,15 @@ macro_rules! complain {
     }};
 }
 
+mod condition;
 mod demo;
 mod fly;
 mod identity;
+mod linearize;
 mod log;
 mod replay_live;
 mod report;
+mod trim;
 mod verify;
 mod view;
 
@@ -51,6 +54,10 @@ enum Command {
     /// What is in a log.
     #[command(subcommand)]
     Log(log::Command),
+    /// Steady flight: attitude, controls, power. Exit 0 trimmed, 5 no trim.
+    Trim(trim::Args),
+    /// Small motions about a steady flight: modes, frequency responses, state-space matrices.
+    Linearize(linearize::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
 }
@@ -62,6 +69,8 @@ fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&args),
         Command::View(args) => view::run(&args),
         Command::Log(command) => log::run(&command),
+        Command::Trim(args) => trim::run(&args),
+        Command::Linearize(args) => linearize::run(&args),
         Command::Demo(args) => demo::run(&args),
     };
     run.unwrap_or_else(|error| {

@@ -13,6 +13,8 @@ pub const UNUSABLE: u8 = 2;
 pub const NEVER_CLOSED: u8 = 3;
 /// The flight went on, but its log ends early.
 pub const LOG_CUT_SHORT: u8 = 4;
+/// There is no such steady flight.
+pub const NO_TRIM: u8 = 5;
 
 /// Latency beyond which CS-FSTD(A) refuses a simulator.
 const LATENCY_LIMIT_MS: f64 = 150.0;

@@ -23,6 +23,7 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("ft2", "m2", FT * FT),
     ("ft3", "m3", FT * FT * FT),
     ("ftps", "mps", FT),
+    ("fpm", "mps", FT / 60.0),
     ("kt", "mps", KT),
     ("deg", "rad", DEG),
     ("degps", "radps", DEG),

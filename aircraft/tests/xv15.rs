@@ -225,7 +225,7 @@ fn val_hover_at_design_weight_takes_the_published_power() {
 
 fn started(xv15: &Aircraft) -> State {
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
-    start.state(xv15)
+    start.state(xv15).unwrap()
 }
 
 /// Rotors at flat pitch on idle power carry a little of the weight, either way.

@@ -131,6 +131,26 @@ pub fn update(params: &Params, state: &State, commands: &Commands) -> State {
     }
 }
 
+/// Where everything comes to rest under commands that stand, the nacelles standing where they are.
+pub fn settled(params: &Params, state: &State, commands: &Commands) -> State {
+    let at = |actuator: &Actuator, command_rad: f64| {
+        clamp(command_rad, actuator.rad_min, actuator.rad_max)
+    };
+    State {
+        collective_rad: commands.collective_rad.map(|rad| at(&params.collective, rad)),
+        cyclic_forward_rad: commands.cyclic_forward_rad.map(|rad| at(&params.cyclic, rad)),
+        elevator_rad: at(&params.elevator, commands.elevator_rad),
+        flaperon_rad: commands.flaperon_rad.map(|rad| at(&params.flaperon, rad)),
+        rudder_right_rad: at(&params.rudder, commands.rudder_right_rad),
+        flap_rad: at(&params.flap, commands.flap_rad),
+        mast_tilt_rad: state.mast_tilt_rad,
+        mast_tilt_rate_radps: Pair::both(0.0),
+        gear_extension_norm: if commands.gear_down != 0 { 1.0 } else { 0.0 },
+        lever_norm: commands.lever_norm,
+        brake_norm: commands.brake_norm,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

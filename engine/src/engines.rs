@@ -27,6 +27,9 @@ const PRESSURE_SL_PA: f64 = 101_325.0;
 /// Sea-level standard temperature, K.
 const TEMPERATURE_SL_K: f64 = 288.15;
 
+/// An engine's torque goes up to this, over the continuous limit.
+pub const TORQUE_NORM_MAX: f64 = 1.3;
+
 /// What engines and drive are.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -130,8 +133,8 @@ pub fn engines(params: &Params, state: &Pair<State>, inputs: &Inputs) -> (Rate, 
 
     // A stopped rotor cannot take power; the limit keeps the torque finite.
     let omega = max(inputs.rotor_speed_radps, 1.0);
-    let torque_n_m =
-        state.map(|engine| clamp(engine.power_w / omega, 0.0, 1.3 * params.torque_n_m_max));
+    let torque_n_m = state
+        .map(|engine| clamp(engine.power_w / omega, 0.0, TORQUE_NORM_MAX * params.torque_n_m_max));
     let inertia = inputs.rotor_inertia_kg_m2 + params.drive_inertia_kg_m2;
     let rotor_speed_radps2 = (torque_n_m.sum() - inputs.rotor_torque_n_m.sum()) / inertia;
     let fuel_flow_kg_per_s = running

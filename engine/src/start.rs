@@ -6,6 +6,7 @@ use crate::frames::{Attitude, Euler, Ned, Vec3};
 use crate::inputs::{Inputs, World};
 use crate::pair::Pair;
 use crate::state::{Geodetic, Plant, State};
+use crate::trim::{Failure, Power, Target, trim};
 use crate::{Aircraft, GRAVITY_MPS2, cockpit, environment, fcc, rotors, step};
 
 /// How long the aircraft settles on its wheels before the flight, in ticks.
@@ -13,7 +14,7 @@ use crate::{Aircraft, GRAVITY_MPS2, cockpit, environment, fcc, rotors, step};
 /// Half a minute: the governor needs most of it to find the collective that idle power holds.
 const SETTLING_TICKS: u64 = 7500;
 
-/// Where and how a flight begins: standing on its wheels, rotors turning, nacelles up.
+/// Where and how a flight begins: standing on its wheels, rotors turning, nacelles up; or in the air.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Start {
@@ -27,6 +28,39 @@ pub struct Start {
     pub flap_detent: u64,
     /// The world.
     pub world: WorldStart,
+    /// The steady flight in which it begins; without it, it stands on its wheels.
+    #[serde(default)]
+    pub trim: Option<TrimStart>,
+}
+
+/// A steady flight as a flight begins, nose along the start's heading.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrimStart {
+    /// βm.
+    pub mast_tilt_rad: f64,
+    /// True airspeed.
+    pub airspeed_mps: f64,
+    /// Above mean sea level.
+    pub altitude_m: f64,
+    /// Upwards.
+    #[serde(default)]
+    pub climb_mps: f64,
+    /// To the right.
+    #[serde(default)]
+    pub turn_radps: f64,
+    /// Flap lever's detent, 0..3; without it, that of the start.
+    #[serde(default)]
+    pub flap_detent: Option<u64>,
+    /// Rotor speed selected: 0 helicopter, 1 and 2 aeroplane.
+    #[serde(default)]
+    pub rpm_select: u64,
+    /// 1 with the gear down.
+    #[serde(default)]
+    pub gear_down: u64,
+    /// 1 with the SCAS on.
+    #[serde(default)]
+    pub scas_on: u64,
 }
 
 /// The world as a flight begins.
@@ -72,8 +106,33 @@ impl WorldStart {
 }
 
 impl Start {
-    /// The state at tick 0: the aircraft has come to rest on its wheels, brakes set, rotors at speed.
-    pub fn state(&self, aircraft: &Aircraft) -> State {
+    /// The state at tick 0.
+    ///
+    /// # Errors
+    /// When the steady flight in which it is to begin does not exist.
+    pub fn state(&self, aircraft: &Aircraft) -> Result<State, Failure> {
+        let Some(flight) = self.trim else { return Ok(self.on_wheels(aircraft)) };
+        let target = Target {
+            mast_tilt_rad: flight.mast_tilt_rad,
+            airspeed_mps: flight.airspeed_mps,
+            power: Power::Climb(flight.climb_mps),
+            turn_radps: flight.turn_radps,
+            sideslip_rad: 0.0,
+            heading_rad: self.heading_rad,
+            altitude_m: flight.altitude_m,
+            origin: self.origin,
+            fuel_kg: self.fuel_kg,
+            flap_detent: flight.flap_detent.unwrap_or(self.flap_detent),
+            rpm_select: flight.rpm_select,
+            gear_down: flight.gear_down,
+            scas_on: flight.scas_on,
+            world: self.world.world(),
+        };
+        Ok(trim(aircraft, &target)?.state)
+    }
+
+    /// The aircraft has come to rest on its wheels, brakes set, rotors at speed.
+    fn on_wheels(&self, aircraft: &Aircraft) -> State {
         let gear = &aircraft.landing_gear;
         let weights = &aircraft.weight_balance;
         let weight_n = (weights.zero_fuel_mass_kg + self.fuel_kg) * GRAVITY_MPS2;

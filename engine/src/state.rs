@@ -1,5 +1,8 @@
 //! Everything the aircraft remembers: plain numbers of eight bytes.
 
+use alloc::format;
+use alloc::string::String;
+
 use serde::{Deserialize, Serialize};
 
 use crate::aero::horizontal_stabilizer;
@@ -91,16 +94,25 @@ pub struct PlantRate {
 /// not compile.
 trait Numbers {
     fn each(&mut self, f: &mut impl FnMut(&mut f64));
+
+    /// Their names, in the order of `each`, behind the name of what they are a part of.
+    fn names(&self, of: &str, f: &mut impl FnMut(String));
 }
 
 impl Numbers for f64 {
     fn each(&mut self, f: &mut impl FnMut(&mut f64)) {
         f(self);
     }
+
+    fn names(&self, of: &str, f: &mut impl FnMut(String)) {
+        f(of.into());
+    }
 }
 
 impl Numbers for u64 {
     fn each(&mut self, _: &mut impl FnMut(&mut f64)) {}
+
+    fn names(&self, _: &str, _: &mut impl FnMut(String)) {}
 }
 
 impl<F> Numbers for Vec3<F> {
@@ -108,6 +120,10 @@ impl<F> Numbers for Vec3<F> {
         f(&mut self.x);
         f(&mut self.y);
         f(&mut self.z);
+    }
+
+    fn names(&self, of: &str, f: &mut impl FnMut(String)) {
+        ["x", "y", "z"].iter().for_each(|name| f(format!("{of}.{name}")));
     }
 }
 
@@ -118,6 +134,11 @@ macro_rules! numbers {
                 let Self { $($field),+ } = self;
                 $($field.each(f);)+
             }
+
+            fn names(&self, of: &str, f: &mut impl FnMut(String)) {
+                let dot = if of.is_empty() { "" } else { "." };
+                $(self.$field.names(&format!("{of}{dot}{}", stringify!($field)), f);)+
+            }
         })+
     };
 }
@@ -127,12 +148,22 @@ impl<T: Numbers> Numbers for Pair<T> {
         self.left.each(f);
         self.right.each(f);
     }
+
+    fn names(&self, of: &str, f: &mut impl FnMut(String)) {
+        self.left.names(&format!("{of}.left"), f);
+        self.right.names(&format!("{of}.right"), f);
+    }
 }
 
 impl<T: Numbers> Numbers for Struts<T> {
     fn each(&mut self, f: &mut impl FnMut(&mut f64)) {
         self.nose.each(f);
         self.main.each(f);
+    }
+
+    fn names(&self, of: &str, f: &mut impl FnMut(String)) {
+        self.nose.names(&format!("{of}.nose"), f);
+        self.main.names(&format!("{of}.main"), f);
     }
 }
 
@@ -185,6 +216,19 @@ impl State {
         finite
     }
 
+    /// Every floating-point number in turn, to be looked at or changed in place.
+    pub fn each_number(&mut self, mut f: impl FnMut(&mut f64)) {
+        self.each(&mut f);
+    }
+
+    /// The names of the numbers, in the same order, with the parts that they are in:
+    /// `plant.rotors.left.induced_mps`.
+    pub fn number_names(&self) -> alloc::vec::Vec<String> {
+        let mut names = alloc::vec::Vec::new();
+        self.names("", &mut |name| names.push(name));
+        names
+    }
+
     /// With every −0.0 made +0.0, so that equal states have equal bits.
     #[must_use]
     pub fn without_negative_zeros(mut self) -> Self {
@@ -196,6 +240,21 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_number_has_its_name() {
+        let mut state = State::default();
+        let names = state.number_names();
+        let mut count = 0;
+        state.each_number(|number| {
+            if names[count] == "plant.rotors.right.induced_mps" {
+                *number = 7.0;
+            }
+            count += 1;
+        });
+        assert_eq!(count, names.len());
+        assert_eq!(state.plant.rotors.right.induced_mps.to_bits(), 7.0f64.to_bits());
+    }
 
     #[test]
     fn no_negative_zero_and_no_nan_escapes() {

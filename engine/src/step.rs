@@ -52,6 +52,22 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
     (next, outputs)
 }
 
+/// Where everything is heading from a state: what moves once a tick after one tick, what moves all the
+/// time after a tick at the rates of the state itself, which are kept in `rate`.
+///
+/// This is no flight. It is what trim and linearisation look at, where all parts are wanted at the
+/// same moment.
+pub fn heading(aircraft: &Aircraft, state: &State, world: &World) -> (State, Outputs) {
+    let (environment, air) = weather(state, world);
+    let sensed = sense(state, &air);
+    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
+    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
+    let blocks = Blocks::evaluate(aircraft, state, world, &air);
+    let plant = advance(&state.plant, &blocks.rate, &blocks.rate, &blocks.gear);
+    let outputs = Outputs { commands, ..blocks.outputs(state) };
+    (State { fcc, actuators, environment, plant, rate: blocks.rate, ..*state }, outputs)
+}
+
 /// The air of this tick.
 fn weather(state: &State, world: &World) -> (environment::State, environment::Outputs) {
     let plant = &state.plant;
@@ -71,6 +87,11 @@ fn weather(state: &State, world: &World) -> (environment::State, environment::Ou
 fn airspeed(plant: &Plant, air: &environment::Outputs) -> Vec3<Body> {
     plant.attitude.ned_from_body().inverse() * (plant.velocity_mps - air.wind_mps)
         - air.turbulence_mps
+}
+
+/// What the flight control computer's sensors read in a state at rest in its weather.
+pub(crate) fn sensed(state: &State, world: &World) -> fcc::Sensed {
+    sense(state, &weather(state, world).1)
 }
 
 /// What the flight control computer's sensors read. Ideal: no lag, no noise.

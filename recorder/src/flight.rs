@@ -148,15 +148,18 @@ pub enum FlyError {
     /// The log cannot be begun.
     #[error(transparent)]
     Log(#[from] LogError),
+    /// There is no steady flight to begin in.
+    #[error("the flight cannot begin in the air: {0}")]
+    Trim(#[from] engine::trim::Failure),
 }
 
 /// Flies until the hands are done, the time is up, or `progress.stop` is set.
 ///
 /// # Errors
-/// When the log cannot be begun. What goes wrong later is in the [`Landing`].
+/// When the log cannot be begun, or the flight. What goes wrong later is in the [`Landing`].
 pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError> {
     let aircraft = flight.aircraft;
-    let mut state = flight.start.state(&aircraft);
+    let mut state = flight.start.state(&aircraft)?;
     let world = flight.start.world.world();
     let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
     let writer = FlightWriter::create(

@@ -1,0 +1,165 @@
+//! Trim curves.
+
+use engine::Aircraft;
+use engine::trim::{Failure, Target, Trim, trim};
+
+use crate::book::{Band, Book, Case, DEG, INCH_M, KNOT_MPS, POUND_N};
+
+/// A steady flight of the plan: nacelles in deg, speed in m/s; flaps and rotor speed as the source's.
+pub fn at(aircraft: &Aircraft, nacelle_deg: f64, airspeed_mps: f64) -> Result<Trim, String> {
+    let flap_detent = if nacelle_deg > 75.0 {
+        2
+    } else if nacelle_deg > 15.0 {
+        1
+    } else {
+        0
+    };
+    let target = Target {
+        mast_tilt_rad: (90.0 - nacelle_deg) / DEG,
+        airspeed_mps,
+        flap_detent,
+        rpm_select: if nacelle_deg < 1.0 { 2 } else { 0 },
+        ..Target::default()
+    };
+    trim(aircraft, &target).map_err(|failure| why(&failure))
+}
+
+/// A failure in a few words.
+pub fn why(failure: &Failure) -> String {
+    match failure {
+        Failure::Unsteady { .. } => "no steady flight found".into(),
+        other => other.to_string(),
+    }
+}
+
+/// Stick from the aft stop, in.
+pub fn stick_in(trim: &Trim) -> f64 {
+    trim.report.stick_from_aft_m / INCH_M
+}
+
+/// A published point.
+pub struct Point {
+    /// Whose.
+    pub source: &'static str,
+    /// Nacelle incidence, deg.
+    pub nacelle_deg: f64,
+    /// True airspeed, m/s.
+    pub airspeed_mps: f64,
+    /// Pitch, deg.
+    pub pitch_deg: f64,
+    /// Stick, in.
+    pub stick_in: f64,
+    /// Power, kW.
+    pub power_kw: f64,
+}
+
+const fn point(
+    source: &'static str,
+    nacelle_deg: f64,
+    airspeed_mps: f64,
+    pitch_deg: f64,
+    stick_percent: f64,
+    power_kw: f64,
+) -> Point {
+    Point {
+        source,
+        nacelle_deg,
+        airspeed_mps,
+        pitch_deg,
+        stick_in: 0.096 * stick_percent,
+        power_kw,
+    }
+}
+
+/// Wang et al. 2025 fig. 1, digitised: GTRS, and flight. The known bias of the digitising is taken off:
+/// upright pitch +.3 deg and stick +.7 %; nacelles at 60 and 0 deg pitch +1.5 deg and power +45 kW.
+pub const POINTS: [Point; 16] = [
+    point("GTRS", 90.0, 10.5, 0.3, 56.1, 1271.0),
+    point("GTRS", 90.0, 20.9, -2.5, 53.5, 900.0),
+    point("GTRS", 90.0, 31.0, -5.7, 54.4, 829.0),
+    point("GTRS", 90.0, 41.2, -9.4, 60.1, 914.0),
+    point("GTRS", 90.0, 51.4, -12.6, 72.1, 1329.0),
+    point("flight", 90.0, 20.8, 1.0, 49.3, 1021.0),
+    point("flight", 90.0, 30.35, -0.8, 51.0, 921.0),
+    point("flight", 90.0, 43.3, -4.5, 63.3, 1050.0),
+    point("GTRS", 60.0, 41.1, 9.7, 47.2, 764.0),
+    point("GTRS", 60.0, 61.7, -2.1, 72.1, 1212.0),
+    point("GTRS", 30.0, 51.5, 9.4, 52.0, 764.0),
+    point("GTRS", 30.0, 72.3, -0.9, 70.6, 1079.0),
+    point("GTRS", 0.0, 71.9, 7.2, 46.8, 621.0),
+    point("GTRS", 0.0, 92.4, 2.9, 53.6, 843.0),
+    point("GTRS", 0.0, 113.1, 0.8, 55.7, 1208.0),
+    point("flight", 0.0, 94.5, 4.3, 50.3, 846.0),
+];
+
+/// NASA CR-166537's printouts: speed kt, pitch deg, stick in, thrust lbf.
+const PRINTED: [(f64, f64, f64, f64); 3] =
+    [(0.01, 1.11, 5.27, 7333.9), (40.0, -2.52, 5.07, 6097.2), (80.0, -9.35, 5.80, 6180.8)];
+
+impl Point {
+    /// Whether it was flown or computed with the nacelles there.
+    pub fn is_at(&self, nacelle_deg: f64) -> bool {
+        (self.nacelle_deg - nacelle_deg).abs() < 0.5
+    }
+}
+
+fn rows(aircraft: &Aircraft, case: &mut Case, point: &Point) {
+    let found = at(aircraft, point.nacelle_deg, point.airspeed_mps);
+    let of = |f: &dyn Fn(&Trim) -> f64| found.as_ref().map(f).map_err(Clone::clone);
+    let name = format!(
+        "{:.0} deg, {:.0} kt, {}",
+        point.nacelle_deg,
+        point.airspeed_mps / KNOT_MPS,
+        if point.source == "flight" { "flight (A)" } else { "GTRS (B)" }
+    );
+    let pitch = of(&|t| t.report.pitch_rad * DEG);
+    case.row(format!("{name}: pitch, deg"), point.pitch_deg, pitch, Band::Within(1.5), 1);
+    let stick = of(&stick_in);
+    case.row(format!("{name}: stick, in"), point.stick_in, stick, Band::Within(0.5), 2);
+    let power = of(&|t| 1e-3 * t.report.power_w);
+    case.row(format!("{name}: power, kW"), point.power_kw, power, Band::Part(0.08), 0);
+}
+
+/// Case 3.
+pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
+    let mut case = Case::new(
+        3,
+        "helicopter, 0 to 100 kt, level",
+        "Class B: GTRS, NASA CR-166537 printouts (first rows), and digitised from Wang et al. 2025 \
+         fig. 1, the digitiser's bias taken off (pitch +.3 deg, stick +.7 %). Class A: flight points of the \
+         same figure.",
+        "Against the printouts ±.3 deg and ±.15 in, which only a model with the same tables could hold; \
+         against the figure ±1.5 deg, ±.5 in and ±8 %, which holds the reading (±.7 deg, ±1.4 %, \
+         ±43 kW) twice. Flight and GTRS are 4 to 5 deg and 100 kW apart at 40 to 60 kt: no model \
+         passes both.",
+    );
+    for (speed_kt, pitch_deg, stick, thrust_lbf) in PRINTED {
+        let found = at(aircraft, 90.0, speed_kt * KNOT_MPS);
+        let of = |f: &dyn Fn(&Trim) -> f64| found.as_ref().map(f).map_err(Clone::clone);
+        let name = format!("{speed_kt:.0} kt, printed (B)");
+        let pitch = of(&|t| t.report.pitch_rad * DEG);
+        case.row(format!("{name}: pitch, deg"), pitch_deg, pitch, Band::Within(0.3), 2);
+        case.row(format!("{name}: stick, in"), stick, of(&stick_in), Band::Within(0.15), 2);
+        let thrust = of(&|t| t.report.thrust_n.right / POUND_N);
+        case.row(format!("{name}: thrust, lbf"), thrust_lbf, thrust, Band::Part(0.02), 0);
+    }
+    for point in POINTS.iter().filter(|point| point.is_at(90.0)) {
+        rows(aircraft, &mut case, point);
+    }
+    book.add(case);
+}
+
+/// Case 4.
+pub fn nacelles(aircraft: &Aircraft, book: &mut Book) {
+    let mut case = Case::new(
+        4,
+        "nacelles at 60, 30 and 0 deg, level",
+        "Class B: GTRS; class A: flight; both digitised from Wang et al. 2025 fig. 1. At 60 and 0 deg with \
+         the digitiser's known bias taken off (pitch +1.5 deg, power +45 kW).",
+        "±1.5 deg, ±.5 in, ±8 %: twice the reading. Flaps 20/12.5, as an aeroplane 0 and 458 rpm.",
+    );
+    for point in POINTS.iter().filter(|point| point.nacelle_deg < 90.0) {
+        rows(aircraft, &mut case, point);
+    }
+    book.add(case);
+}
