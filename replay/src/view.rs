@@ -376,14 +376,6 @@ mod tests {
         assert_eq!(std::fs::metadata(&path).expect("the file").len(), bytes);
     }
 
-    /// `TILTROTOR_VIEW=/tmp/flight.rrd cargo test -p replay -- --ignored a_flight_to_look_at`
-    #[test]
-    #[ignore = "writes a file to look at"]
-    fn a_flight_to_look_at() {
-        let path = std::env::var_os("TILTROTOR_VIEW").expect("TILTROTOR_VIEW names a file");
-        draw(Path::new(&path), 20 * SECOND);
-    }
-
     #[test]
     fn a_long_flight_keeps_a_short_path() {
         let folder = tempfile::tempdir().expect("a temporary folder");
