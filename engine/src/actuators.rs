@@ -39,7 +39,7 @@ pub struct Actuator {
 pub struct Params {
     /// Collective pitch at ¾ radius.
     pub collective: Actuator,
-    /// Longitudinal cyclic.
+    /// Longitudinal and lateral cyclic.
     pub cyclic: Actuator,
     /// Elevator.
     pub elevator: Actuator,
@@ -66,6 +66,8 @@ pub struct State {
     pub collective_rad: Pair<f64>,
     /// B1.
     pub cyclic_forward_rad: Pair<f64>,
+    /// A1, tilting the discs outboard.
+    pub cyclic_outboard_rad: Pair<f64>,
     /// δe.
     pub elevator_rad: f64,
     /// Beyond the flap's setting, down.
@@ -115,6 +117,11 @@ pub fn update(params: &Params, state: &State, commands: &Commands) -> State {
             &params.cyclic,
             state.cyclic_forward_rad,
             commands.cyclic_forward_rad,
+        ),
+        cyclic_outboard_rad: both(
+            &params.cyclic,
+            state.cyclic_outboard_rad,
+            commands.cyclic_outboard_rad,
         ),
         elevator_rad: params.elevator.toward(state.elevator_rad, commands.elevator_rad),
         flaperon_rad: both(&params.flaperon, state.flaperon_rad, commands.flaperon_rad),

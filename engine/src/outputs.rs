@@ -11,7 +11,7 @@ use crate::{actuators, cockpit, engines, environment, fcc, rotors, weight_balanc
 
 /// Where the model's answer is no longer to be trusted, as bits of [`Outputs::validity`].
 pub mod validity {
-    /// A rotor's mean section is beyond its greatest lift.
+    /// A tenth of a rotor's outer blades is beyond its greatest lift.
     pub const ROTOR_STALL: u64 = 1;
     /// A rotor descends into its own wake.
     pub const VORTEX_RING: u64 = 1 << 1;
@@ -23,6 +23,8 @@ pub mod validity {
     pub const GEAR_BOTTOMED: u64 = 1 << 4;
     /// A number stopped being finite; the aircraft stands still.
     pub const FROZEN: u64 = 1 << 5;
+    /// A rotor's gimbal is on its stop.
+    pub const FLAPPING_STOP: u64 = 1 << 6;
 }
 
 /// Loads on the airframe by component, each about the centre of gravity.

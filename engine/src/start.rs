@@ -92,7 +92,7 @@ impl Start {
                     heading_rad: self.heading_rad,
                     ..Euler::default()
                 }),
-                rotors: Pair::both(rotors::State { induced_mps: 1.0, ..rotors::State::default() }),
+                rotors: Pair::both(rotors::State::default()),
                 rotor_speed_radps,
                 fuel_kg: self.fuel_kg,
                 ..Plant::default()

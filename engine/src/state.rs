@@ -39,7 +39,7 @@ pub struct Plant {
     pub attitude: Attitude,
     /// ω.
     pub angular_rate_radps: Vec3<Body>,
-    /// Inflow and tip path of each rotor; the left one as its mirror image.
+    /// Inflow and flapping of each rotor; the left one as its mirror image.
     pub rotors: Pair<rotors::State>,
     /// Ω of both rotors.
     pub rotor_speed_radps: f64,
@@ -72,8 +72,6 @@ pub struct Geodetic {
 pub struct PlantRate {
     /// Of the motion.
     pub motion: eom::Rate,
-    /// Of each rotor.
-    pub rotors: Pair<rotors::Rate>,
     /// Of rotor speed, power and fuel.
     pub engines: engines::Rate,
 }
@@ -141,7 +139,7 @@ numbers! {
     }
     fcc::governor::State { reference_radps, integral_rad, correction_rad }
     actuators::State {
-        collective_rad, cyclic_forward_rad, elevator_rad, flaperon_rad, rudder_right_rad, flap_rad,
+        collective_rad, cyclic_forward_rad, cyclic_outboard_rad, elevator_rad, flaperon_rad, rudder_right_rad, flap_rad,
         mast_tilt_rad, mast_tilt_rate_radps, gear_extension_norm, lever_norm, brake_norm,
     }
     Plant {
@@ -150,12 +148,15 @@ numbers! {
     }
     Geodetic { latitude_rad, longitude_rad, height_m }
     Attitude { w, x, y, z }
-    rotors::State { induced_mps, tilt_aft_rad, tilt_right_rad }
+    rotors::State { inflow, flapping }
+    rotors::inflow::State { mean_mps, aft_mps, right_mps }
+    rotors::flapping::State {
+        coning_rad, coning_radps, aft_rad, aft_radps, right_rad, right_radps,
+    }
     engines::State { power_w }
     Tread { forward_m, right_m }
-    PlantRate { motion, rotors, engines }
+    PlantRate { motion, engines }
     eom::Rate { acceleration_mps2, angular_acceleration_radps2 }
-    rotors::Rate { induced_mps2, tilt_aft_radps, tilt_right_radps }
     engines::Rate { power_w_per_s, rotor_speed_radps2, fuel_kg_per_s }
 }
 

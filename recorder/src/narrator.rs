@@ -102,13 +102,14 @@ const FAILURES: [(u64, &str); 6] = [
     (failures::GOVERNOR, "governor"),
 ];
 
-const VALIDITY: [(u64, &str); 6] = [
+const VALIDITY: [(u64, &str); 7] = [
     (validity::ROTOR_STALL, "rotor stall"),
     (validity::VORTEX_RING, "vortex ring"),
     (validity::SPEED, "speed"),
     (validity::HEIGHT, "height"),
     (validity::GEAR_BOTTOMED, "gear bottomed"),
     (validity::FROZEN, "numbers not finite"),
+    (validity::FLAPPING_STOP, "flapping stop"),
 ];
 
 /// The names of the set bits, or "nothing".

@@ -1,0 +1,183 @@
+//! Blade sections: lift and drag at any angle and subsonic Mach number.
+//!
+//! # Equations
+//! ```text
+//! cl, cd = tables(α'),   α' = α0 + (α − α0)·√(1 − M_t²)/√(1 − M²)     −6° < α < 12°     [TP04]
+//! cl = 2·sin α·cos α,  cd = 0.01 + 1.9·sin²α                          flat plate
+//! cd += d(M) − d(M_t),  d = 20·(M − M_cr)⁴ above M_cr,  M_cr = κ_A − t/c − cl/10 − .108   [KORN]
+//! ```
+//! Between −6° and −20°, and between 12° and 30°, the table fades into the plate.
+//! # Signs
+//! α from zero at the chord, leading edge up positive; lift and drag across and along the flow.
+//! # Assumptions
+//! The tables hold at one Mach number M_t a region: Prandtl–Glauert carries their slope, not their
+//! greatest lift, to others. No unsteady stall, no rotational stall delay, no Reynolds number.
+
+use serde::Deserialize;
+
+use crate::math::{PI, clamp, max, min, sqrt, square};
+use crate::table::{Table1, Table2};
+
+/// Regions of the blade with a section of their own.
+pub const REGIONS: usize = 4;
+
+const DEG: f64 = PI / 180.0;
+/// From the drag divergence of Korn's rule down to where the drag begins to rise: (0.1/80)^(1/3).
+const DIVERGENCE: f64 = 0.107_7;
+/// Beyond it Prandtl–Glauert would grow without bound.
+const MACH2_MAX: f64 = 0.64;
+
+/// What the sections are.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// cl by the region's outer end and α in equal steps.
+    pub lift_coefficient: Table2,
+    /// cd, alike.
+    pub drag_coefficient: Table2,
+    /// t/c by the region's outer end.
+    pub thickness_norm: Table1,
+    /// M at the tip when the tables hold: M_t is that of the region's middle.
+    pub table_tip_mach: f64,
+    /// κ_A.
+    pub korn_factor: f64,
+}
+
+impl Params {
+    /// Why the sections cannot be used, if so.
+    pub fn fault(&self) -> Option<&'static str> {
+        let (lift, drag) = (&self.lift_coefficient, &self.drag_coefficient);
+        let even = |axis: &[f64]| {
+            let step = axis[1] - axis[0];
+            axis.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step)
+        };
+        lift.fault().or_else(|| drag.fault()).or_else(|| self.thickness_norm.fault()).or_else(|| {
+            if lift.x.len() != REGIONS || drag.x != lift.x || self.thickness_norm.x != lift.x {
+                Some("the same four regions in lift, drag and thickness")
+            } else if !even(&lift.y) || !even(&drag.y) {
+                Some("angles in equal steps")
+            } else {
+                None
+            }
+        })
+    }
+
+    /// The sections, ready to be asked.
+    pub fn regions(&self) -> [Region<'_>; REGIONS] {
+        core::array::from_fn(|i| {
+            let lift = Grid::new(&self.lift_coefficient, i);
+            let inner = if i > 0 { self.lift_coefficient.x[i - 1] } else { 0.2 };
+            let middle = 0.5 * (inner + self.lift_coefficient.x[i]);
+            let mach = self.table_tip_mach * middle;
+            Region {
+                lift,
+                drag: Grid::new(&self.drag_coefficient, i),
+                zero_lift_rad: lift.root(),
+                table_mach: mach,
+                table_beta: sqrt(1.0 - square(mach)),
+                rise_mach: self.korn_factor - self.thickness_norm.y[i] - DIVERGENCE,
+            }
+        })
+    }
+}
+
+/// A row of a table over equal steps.
+#[derive(Clone, Copy, Debug)]
+struct Grid<'a> {
+    from: f64,
+    per_step: f64,
+    values: &'a [f64],
+}
+
+impl<'a> Grid<'a> {
+    fn new(table: &'a Table2, row: usize) -> Self {
+        let axis = &table.y;
+        Self { from: axis[0], per_step: 1.0 / (axis[1] - axis[0]), values: &table.z[row] }
+    }
+
+    /// Linear between the points and beyond them.
+    fn at(&self, x: f64) -> f64 {
+        let steps = (x - self.from) * self.per_step;
+        // The cast holds negative numbers at zero.
+        let i = (steps as usize).min(self.values.len() - 2);
+        let (low, high) = (self.values[i], self.values[i + 1]);
+        low + (steps - i as f64) * (high - low)
+    }
+
+    /// Where a rising row passes through zero.
+    fn root(&self) -> f64 {
+        let i = self.values.windows(2).position(|pair| pair[1] > 0.0).unwrap_or(0);
+        let (low, high) = (self.values[i], self.values[i + 1]);
+        self.from + (i as f64 - low / (high - low)) / self.per_step
+    }
+}
+
+/// The section of one region of the blade.
+#[derive(Clone, Copy, Debug)]
+pub struct Region<'a> {
+    lift: Grid<'a>,
+    drag: Grid<'a>,
+    /// α0.
+    pub zero_lift_rad: f64,
+    /// M_t.
+    table_mach: f64,
+    /// √(1 − M_t²).
+    table_beta: f64,
+    /// M_cr without lift.
+    rise_mach: f64,
+}
+
+/// What a section does.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients {
+    /// cl.
+    pub lift: f64,
+    /// cd.
+    pub drag: f64,
+    /// 0 on the table, 1 on the flat plate.
+    pub stalled: f64,
+}
+
+// sin 12°, sin 30°, sin 6°, sin 20°: where the table ends and where the plate begins.
+const STALL: f64 = 0.207_911_690_817_759_3;
+const PLATE: f64 = 0.5;
+const STALL_BELOW: f64 = 0.104_528_463_267_653_5;
+const PLATE_BELOW: f64 = 0.342_020_143_325_668_7;
+
+impl Region<'_> {
+    /// Coefficients at the angle of attack with this sine and cosine.
+    pub fn coefficients(&self, sin_alpha: f64, cos_alpha: f64, mach: f64) -> Coefficients {
+        let s = sin_alpha;
+        let beyond = if s > 0.0 {
+            (s - STALL) * (1.0 / (PLATE - STALL))
+        } else {
+            (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW))
+        };
+        let stalled = if cos_alpha > 0.0 { clamp(beyond, 0.0, 1.0) } else { 1.0 };
+        let (mut lift, mut drag) = (2.0 * s * cos_alpha, 0.01 + 1.9 * s * s);
+        if stalled < 1.0 {
+            // The arc sine by its series: to 1e-5 rad at the plate's 30°.
+            let s2 = s * s;
+            let alpha = s
+                * (1.0
+                    + s2 * (1.0 / 6.0
+                        + s2 * (3.0 / 40.0 + s2 * (15.0 / 336.0 + s2 * (105.0 / 3456.0)))));
+            let slope = self.table_beta / sqrt(1.0 - min(square(mach), MACH2_MAX));
+            let scaled = self.zero_lift_rad + (alpha - self.zero_lift_rad) * slope;
+            let within = min(scaled, 12.0 * DEG);
+            let attached = 1.0 - stalled;
+            lift = stalled * lift + attached * self.lift.at(within);
+            drag = stalled * drag + attached * max(self.drag.at(within), 0.0);
+        }
+        let rise_mach = self.rise_mach - 0.1 * lift.abs();
+        if mach > rise_mach {
+            drag += max(rise(mach - rise_mach) - rise(self.table_mach - rise_mach), 0.0);
+        }
+        Coefficients { lift, drag, stalled }
+    }
+}
+
+/// d; held where the fourth power has no meaning any more.
+fn rise(beyond: f64) -> f64 {
+    20.0 * square(square(clamp(beyond, 0.0, 0.3)))
+}
