@@ -24,6 +24,8 @@
 //! - **GESSOW**: Gessow, Myers, *Aerodynamics of the Helicopter*, 1952. Inflow annulus by annulus.
 //! - **LEISHMAN**: Leishman, *Principles of Helicopter Aerodynamics*, 2nd ed. Mean inflow in the vortex
 //!   ring state, a fit to measurements; recalled.
+//! - **SNEL**: Snel, Houwink, Bosschers, *Sectional Prediction of Lift Coefficients on Rotating Wind
+//!   Turbine Blades in Stall*, ECN-C-93-052, 1994. Rotational stall delay; recalled.
 //! - **JOHNSON**: Johnson, *Helicopter Theory*, 1980. Gimbal and coning in multiblade coordinates.
 //! - **KORN**: Korn's rule with Lock's fourth power, as in Mason, *Configuration Aerodynamics*. Drag
 //!   divergence of a section; recalled.

@@ -19,6 +19,8 @@ use crate::table::Table1;
 /// Elements along a blade.
 pub const STATIONS: usize = 8;
 
+const ROOT_3: f64 = 1.732_050_807_568_877_2;
+
 /// Region, and place and weight within it on −1..1: Gauss–Legendre of 3, 2, 2 and 1 points.
 const NODES: [(usize, f64, f64); STATIONS] = [
     (0, -0.774_596_669_241_483_4, 5.0 / 9.0),
@@ -74,6 +76,8 @@ pub struct Station {
     pub area_m2: f64,
     /// c.
     pub chord_m: f64,
+    /// √3·c: with Ω/U, how much rotation holds off the stall, rooted.
+    pub turn_delay_m: f64,
     /// Part of its area that lifts.
     pub lifting: f64,
     /// Part of the disc's area it stands for, 2r·w/R².
@@ -108,6 +112,7 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade<'_> {
             radius_m: x * radius_m,
             area_m2: chord_m * width_norm * radius_m,
             chord_m,
+            turn_delay_m: ROOT_3 * chord_m,
             lifting: clamp((params.tip_loss_norm - inner) / width, 0.0, 1.0),
             disc_norm: 2.0 * x * width_norm,
             sin_twist: sin(twist_rad),

@@ -21,6 +21,7 @@
 
 use super::blade::{Blade, STATIONS};
 use super::flapping;
+use super::section::LIFT_SLOPE;
 use crate::math::{cos, sin, sqrt, square};
 
 /// Azimuths in a turn.
@@ -37,8 +38,6 @@ const TURN: [(f64, f64); AZIMUTHS] = [
     (0.0, -1.0),
     (DIAGONAL, -DIAGONAL),
 ];
-/// Lift slope that stands for all sections in what is implicit, per rad.
-pub const LIFT_SLOPE: f64 = 5.7;
 
 /// What all elements have in common.
 #[derive(Clone, Copy, Debug)]
@@ -167,7 +166,13 @@ fn azimuth(
         let cos_pitch = cos_theta * station.cos_twist - sin_theta * station.sin_twist;
         let sin_alpha = (sin_pitch * u_t - cos_pitch * u_p) * per_u;
         let cos_alpha = (cos_pitch * u_t + sin_pitch * u_p) * per_u;
-        let section = blade.regions[station.region].coefficients(sin_alpha, cos_alpha, u * per_sound);
+        let turn = station.turn_delay_m * flow.omega_radps * per_u;
+        let section = blade.regions[station.region].coefficients(
+            (sin_alpha, cos_alpha),
+            u * per_sound,
+            turn * turn,
+        );
+        if let Some(()) = option_env!("DBG").map(|_| ()) { if s == 0.0 && c == 1.0 { extern crate std; std::eprintln!("  x {:.3} a {:.2} cl {:.3} cd {:.4} M {:.3} v {:.2} phi {:.2} st {:.2}", r/3.81, crate::math::asin(sin_alpha)*57.3, section.lift, section.drag, u*per_sound, induced.mean_mps[i], crate::math::atan2(u_p,u_t)*57.3, section.stalled); } }
         let lift = station.lifting * section.lift;
         let scale = station.area_m2 * u;
         let f_n = scale * (lift * u_t - section.drag * u_p);

@@ -27,7 +27,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::blade::{Blade, STATIONS};
-use super::elements::{Flow, Induced, LIFT_SLOPE};
+use super::elements::{Flow, Induced};
+use super::section::LIFT_SLOPE;
 use crate::STEP_S;
 use crate::math::{PI, clamp, max, min, sqrt, square};
 
@@ -191,7 +192,7 @@ pub fn induced(
         let zero_lift = blade.regions[station.region].zero_lift_rad;
         let sin_alpha = (sin_pitch * omega * r - cos_pitch * flow.along_mps) / u;
         let pull = blades * station.chord_m * omega * LIFT_SLOPE / (8.0 * PI);
-        let forcing = pull * u * (sin_alpha - zero_lift) * station.lifting;
+        let forcing = pull * u * (sin_alpha - zero_lift);
         let relief = free_mps + (pull * omega * r / u).abs() + STILL_MPS;
         *v = 2.0 * forcing / (relief + sqrt(square(relief) + 4.0 * forcing.abs()));
         momentum += station.disc_norm * *v * (free_mps + v.abs());

@@ -4,14 +4,16 @@
 //! ```text
 //! cl, cd = tables(α'),   α' = α0 + (α − α0)·√(1 − M_t²)/√(1 − M²)     −6° < α < 12°     [TP04]
 //! cl = 2·sin α·cos α,  cd = 0.01 + 1.9·sin²α                          flat plate
+//! cl += 3·(c/r)²·(Ωr/U)²·(a·(sin α − sin α0) − cl)     rotation holds off the stall  [SNEL]
 //! cd += d(M) − d(M_t),  d = 20·(M − M_cr)⁴ above M_cr,  M_cr = κ_A − t/c − cl/10 − .108   [KORN]
 //! ```
-//! Between −6° and −20°, and between 12° and 30°, the table fades into the plate.
+//! Between −6° and −20°, and between 12° and 30°, the table fades into the plate; what rotation adds
+//! fades out between 30° and 50°.
 //! # Signs
 //! α from zero at the chord, leading edge up positive; lift and drag across and along the flow.
 //! # Assumptions
 //! The tables hold at one Mach number M_t a region: Prandtl–Glauert carries their slope, not their
-//! greatest lift, to others. No unsteady stall, no rotational stall delay, no Reynolds number.
+//! greatest lift, to others. No unsteady stall, no Reynolds number.
 
 use serde::Deserialize;
 
@@ -143,10 +145,21 @@ const STALL: f64 = 0.207_911_690_817_759_3;
 const PLATE: f64 = 0.5;
 const STALL_BELOW: f64 = 0.104_528_463_267_653_5;
 const PLATE_BELOW: f64 = 0.342_020_143_325_668_7;
+/// sin 50°: where rotation has lost its hold.
+const DELAY_END: f64 = 0.766_044_443_118_978;
+/// The correlation is of chords up to 0.4 of the radius at hand.
+const DELAY_MAX: f64 = 0.5;
+/// a: lift slope that stands for all sections where the tables do not say, per rad.
+pub const LIFT_SLOPE: f64 = 5.7;
 
 impl Region<'_> {
-    /// Coefficients at the angle of attack with this sine and cosine.
-    pub fn coefficients(&self, sin_alpha: f64, cos_alpha: f64, mach: f64) -> Coefficients {
+    /// Coefficients at the angle of attack with this sine and cosine; `delay` is 3·(c/r)²·(Ωr/U)².
+    pub fn coefficients(
+        &self,
+        (sin_alpha, cos_alpha): (f64, f64),
+        mach: f64,
+        delay: f64,
+    ) -> Coefficients {
         let s = sin_alpha;
         let beyond = if s > 0.0 {
             (s - STALL) * (1.0 / (PLATE - STALL))
@@ -168,6 +181,11 @@ impl Region<'_> {
             let attached = 1.0 - stalled;
             lift = stalled * lift + attached * self.lift.at(within);
             drag = stalled * drag + attached * max(self.drag.at(within), 0.0);
+        }
+        if s > 0.0 && s < DELAY_END && cos_alpha > 0.0 {
+            let potential = LIFT_SLOPE * (s - self.zero_lift_rad);
+            let fade = min((DELAY_END - s) * (1.0 / (DELAY_END - PLATE)), 1.0);
+            lift += fade * min(delay, DELAY_MAX) * max(potential - lift, 0.0);
         }
         let rise_mach = self.rise_mach - 0.1 * lift.abs();
         if mach > rise_mach {
