@@ -11,7 +11,7 @@ fn main() {
         let mut i=lab::inputs(om*30.0/PI, 8.0*DEG);
         i.motion.airspeed_mps=Vec3::new(v*cos(al),0.0,v*sin(al)); // alpha negative: climb => z negative
         let mut s=State::default(); let mut o=Outputs::default();
-        for _ in 0..20000 { let r=rotors::rotor(p,&s,&i); s=r.0; o=r.1;
+        for _ in 0..20000 { let r=rotors::rotor(p,&p.blade(),&s,&i); s=r.0; o=r.1;
           i.cyclic_forward_rad += 0.002*o.tilt_aft_rad; i.cyclic_outboard_rad -= 0.002*o.tilt_outboard_rad;
           i.collective_rad += 0.01*(0.075-o.blade_loading); }
         let cq=o.torque_n_m/(1.225*p.disc_area_m2()*tip*tip*p.radius_m)/p.solidity;
@@ -21,7 +21,7 @@ fn main() {
     for kt in [20.0,40.0,60.0,80.0] { for a1 in [0.0,-4.0,4.0] {
         let mut i=lab::inputs(589.0, 9.0*DEG); i.motion.airspeed_mps=Vec3::new(kt*0.5144,0.0,0.0); i.cyclic_outboard_rad=a1*DEG;
         let mut s=State::default(); let mut o=Outputs::default();
-        for _ in 0..5000 { let r=rotors::rotor(p,&s,&i); s=r.0; o=r.1; }
+        for _ in 0..5000 { let r=rotors::rotor(p,&p.blade(),&s,&i); s=r.0; o=r.1; }
         println!("{kt} kt A1 {a1}: tilt aft {:.2} right {:.2} cone {:.2} CT/s {:.4}", o.tilt_aft_rad/DEG,o.tilt_outboard_rad/DEG,o.coning_rad/DEG,o.blade_loading);
     }}
     // airplane
@@ -29,7 +29,7 @@ fn main() {
         let mut i=lab::inputs(rpm, 40.0*DEG); i.mast_tilt_rad=PI/2.0; i.motion.airspeed_mps=Vec3::new(v,0.0,0.0);
         let t_target = 0.5*1.225*v*v*0.93/2.0 + if v<95.0 {1500.0} else {500.0};
         let mut s=State::default(); let mut o=Outputs::default();
-        for _ in 0..20000 { let r=rotors::rotor(p,&s,&i); s=r.0; o=r.1; i.collective_rad += 1e-8*(t_target-o.thrust_n); }
+        for _ in 0..20000 { let r=rotors::rotor(p,&p.blade(),&s,&i); s=r.0; o=r.1; i.collective_rad += 1e-8*(t_target-o.thrust_n); }
         println!("plane V {v} rpm {rpm} T {:.0} coll {:.2} (root-lin eq {:.2}) P2 {:.0} kW eta {:.3} v0 {:.2} stall {:.2}", o.thrust_n, i.collective_rad/DEG, i.collective_rad/DEG+30.75, 2e-3*o.power_w, o.thrust_n*v/o.power_w, s.inflow.mean_mps, o.stalled_norm);
     }
 }

@@ -9,8 +9,8 @@ pub fn inputs(rpm: f64, coll: f64) -> Inputs {
 }
 pub fn settle(p: &Params, i: &Inputs) -> (State, Outputs) {
     let mut s = State::default();
-    for _ in 0..3000 { s = rotors::rotor(p, &s, i).0; }
-    (s, rotors::rotor(p, &s, i).1)
+    for _ in 0..3000 { s = rotors::rotor(p, &p.blade(), &s, i).0; }
+    (s, rotors::rotor(p, &p.blade(), &s, i).1)
 }
 fn main() {
     let x = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|e| panic!("{e}"));
@@ -25,5 +25,5 @@ fn main() {
         println!("th {th:5} CT {ct:.6} coll {:.2} (off {:.2}) CT {c:.6} CP {pw:.6} pub {cp:.6} ({:+.1}%) FM {:.4} pub {fm:.4} ({:+.3}) v {:.2} cone {:.2} stall {:.2}", lo/DEG, lo/DEG-th, (pw/cp-1.0)*100.0, c*sqrt(c/2.0)/pw, c*sqrt(c/2.0)/pw-fm, s.inflow.mean_mps, s.flapping.coning_rad/DEG,o.stalled_norm);
     }
     let i=inputs(589.0, 10.0*DEG); let (mut s,_)=settle(&p,&i);
-    let t=std::time::Instant::now(); let n=200000; for _ in 0..n { s=std::hint::black_box(rotors::rotor(&p,&s,&i)).0; } println!("{:.0} ns per rotor", t.elapsed().as_nanos() as f64/n as f64);
+    let t=std::time::Instant::now(); let n=200000; for _ in 0..n { s=std::hint::black_box(rotors::rotor(&p,&p.blade(),&s,&i)).0; } println!("{:.0} ns per rotor", t.elapsed().as_nanos() as f64/n as f64);
 }

@@ -305,6 +305,7 @@ fn rotors(
         .zip(surfaces.mast_tilt_rate_radps)
         .zip(surfaces.collective_rad.zip(cyclic));
     let sides = Pair { left: -1.0, right: 1.0 };
+    let blade = aircraft.rotors.blade();
     state.plant.rotors.zip(motions.zip(controls.zip(sides))).map(
         |(rotor, (motion, (((mast_tilt_rad, mast_tilt_rate_radps), pitch), side)))| {
             let hub = aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad);
@@ -320,7 +321,7 @@ fn rotors(
                 cyclic_outboard_rad: pitch.1.1,
                 hub_height_m: height_above_ground_m - (*ned_from_body * hub).z,
             };
-            rotors::rotor(&aircraft.rotors, &rotor, &inputs)
+            rotors::rotor(&aircraft.rotors, &blade, &rotor, &inputs)
         },
     )
 }

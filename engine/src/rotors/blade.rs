@@ -90,15 +90,15 @@ pub struct Station {
 
 /// A blade, ready to be moved through the air.
 #[derive(Clone, Copy, Debug)]
-pub struct Blade<'a> {
+pub struct Blade {
     /// Elements, from the root.
     pub stations: [Station; STATIONS],
     /// Sections, from the root.
-    pub regions: [Region<'a>; REGIONS],
+    pub regions: [Region; REGIONS],
 }
 
 /// The blade of a rotor of that radius.
-pub fn blade(params: &Params, radius_m: f64) -> Blade<'_> {
+pub fn blade(params: &Params, radius_m: f64) -> Blade {
     let ends = &params.section.lift_coefficient.x;
     let stations = NODES.map(|(region, at, weight)| {
         let inner = if region > 0 { ends[region - 1] } else { params.root_norm };
@@ -119,5 +119,5 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade<'_> {
             cos_twist: cos(twist_rad),
         }
     });
-    Blade { stations, regions: params.section.regions() }
+    Blade { stations, regions: params.section.regions(params.root_norm) }
 }

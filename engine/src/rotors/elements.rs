@@ -103,7 +103,7 @@ pub struct Sums {
 
 /// All elements, once around.
 pub fn elements(
-    blade: &Blade<'_>,
+    blade: &Blade,
     flow: &Flow,
     pitch: &Pitch,
     flap: &flapping::State,
@@ -131,7 +131,7 @@ pub fn elements(
 
 /// Adds the elements at one azimuth, without ½ρ.
 fn azimuth(
-    blade: &Blade<'_>,
+    blade: &Blade,
     flow: &Flow,
     pitch: &Pitch,
     flap: &flapping::State,
@@ -172,7 +172,6 @@ fn azimuth(
             u * per_sound,
             turn * turn,
         );
-        if let Some(()) = option_env!("DBG").map(|_| ()) { if s == 0.0 && c == 1.0 { extern crate std; std::eprintln!("  x {:.3} a {:.2} cl {:.3} cd {:.4} M {:.3} v {:.2} phi {:.2} st {:.2}", r/3.81, crate::math::asin(sin_alpha)*57.3, section.lift, section.drag, u*per_sound, induced.mean_mps[i], crate::math::atan2(u_p,u_t)*57.3, section.stalled); } }
         let lift = station.lifting * section.lift;
         let scale = station.area_m2 * u;
         let f_n = scale * (lift * u_t - section.drag * u_p);

@@ -175,7 +175,7 @@ pub fn induced(
     state: &State,
     passage: &Passage,
     flow: &Flow,
-    blade: &Blade<'_>,
+    blade: &Blade,
     (collective, blades): ((f64, f64), f64),
     (ground, radius_m): (f64, f64),
 ) -> Induced {

@@ -60,6 +60,11 @@ pub struct Params {
 }
 
 impl Params {
+    /// The blade's elements.
+    pub fn blade(&self) -> blade::Blade {
+        blade::blade(&self.blade, self.radius_m)
+    }
+
     /// A.
     pub fn disc_area_m2(&self) -> f64 {
         PI * square(self.radius_m)
@@ -178,7 +183,14 @@ impl Hub {
 }
 
 /// The rotor one tick later, and its loads now.
-pub fn rotor(params: &Params, state: &State, inputs: &Inputs) -> (State, Outputs) {
+///
+/// `blade` is the one of [`Params::blade`]: the same for both rotors, so it is made once.
+pub fn rotor(
+    params: &Params,
+    blade: &blade::Blade,
+    state: &State,
+    inputs: &Inputs,
+) -> (State, Outputs) {
     let hub = Hub::new(params, inputs);
     let flow = elements::Flow {
         omega_radps: inputs.rotor_speed_radps - hub.rate_radps.z,
@@ -196,7 +208,6 @@ pub fn rotor(params: &Params, state: &State, inputs: &Inputs) -> (State, Outputs
         forward_rad: inputs.cyclic_forward_rad - coupling * gimbal.right_rad,
         right_rad: inputs.cyclic_outboard_rad - coupling * gimbal.aft_rad,
     };
-    let blade = blade::blade(&params.blade, params.radius_m);
     let passage = inflow::passage(&state.inflow, &flow);
     let ground = inflow::ground(&passage, inputs.hub_height_m, params.radius_m);
     let induced = inflow::induced(
@@ -204,11 +215,11 @@ pub fn rotor(params: &Params, state: &State, inputs: &Inputs) -> (State, Outputs
         &state.inflow,
         &passage,
         &flow,
-        &blade,
+        blade,
         ((sin(inputs.collective_rad), cos(inputs.collective_rad)), params.blade.count),
         (ground, params.radius_m),
     );
-    let sums = elements::elements(&blade, &flow, &pitch, flap, &induced);
+    let sums = elements::elements(blade, &flow, &pitch, flap, &induced);
 
     let next = advance(params, state, &hub, &flow, &passage, &gimbal, &sums);
     let outputs = outputs(params, state, inputs, &hub, &gimbal, &sums);

@@ -17,13 +17,14 @@
 
 use serde::Deserialize;
 
-use crate::math::{PI, clamp, max, min, sqrt, square};
+use crate::math::{clamp, max, min, sqrt, square};
 use crate::table::{Table1, Table2};
 
+/// Angles of a table, at most.
+const ANGLES_MAX: usize = 16;
 /// Regions of the blade with a section of their own.
 pub const REGIONS: usize = 4;
 
-const DEG: f64 = PI / 180.0;
 /// From the drag divergence of Korn's rule down to where the drag begins to rise: (0.1/80)^(1/3).
 const DIVERGENCE: f64 = 0.107_7;
 /// Beyond it Prandtl–Glauert would grow without bound.
@@ -49,15 +50,20 @@ impl Params {
     /// Why the sections cannot be used, if so.
     pub fn fault(&self) -> Option<&'static str> {
         let (lift, drag) = (&self.lift_coefficient, &self.drag_coefficient);
-        let even = |axis: &[f64]| {
-            let step = axis[1] - axis[0];
-            axis.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step)
-        };
-        lift.fault().or_else(|| drag.fault()).or_else(|| self.thickness_norm.fault()).or_else(|| {
-            if lift.x.len() != REGIONS || drag.x != lift.x || self.thickness_norm.x != lift.x {
+        let thickness = &self.thickness_norm;
+        lift.fault().or_else(|| drag.fault()).or_else(|| thickness.fault()).or_else(|| {
+            let step = lift.y[1] - lift.y[0];
+            let even =
+                lift.y.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step);
+            let known = lift.y.iter().skip(self.drag_offset());
+            let same = drag.y.len() <= known.len()
+                && drag.y.iter().zip(known).all(|(a, b)| (a - b).abs() < 1e-9);
+            if lift.x.len() != REGIONS || drag.x != lift.x || thickness.x != lift.x {
                 Some("the same four regions in lift, drag and thickness")
-            } else if !even(&lift.y) || !even(&drag.y) {
-                Some("angles in equal steps")
+            } else if !even || lift.y.len() > ANGLES_MAX {
+                Some("sixteen angles at most, in equal steps")
+            } else if !same {
+                Some("angles of the drag among those of the lift")
             } else {
                 None
             }
@@ -65,60 +71,60 @@ impl Params {
     }
 
     /// The sections, ready to be asked.
-    pub fn regions(&self) -> [Region<'_>; REGIONS] {
+    pub fn regions(&self, root_norm: f64) -> [Region; REGIONS] {
+        let (lift, drag) = (&self.lift_coefficient, &self.drag_coefficient);
+        let step = lift.y[1] - lift.y[0];
+        let last = lift.y.len() - 1;
+        // The drag's angles are some of the lift's: the row below or beyond them goes on in its line.
+        let first = self.drag_offset();
         core::array::from_fn(|i| {
-            let lift = Grid::new(&self.lift_coefficient, i);
-            let inner = if i > 0 { self.lift_coefficient.x[i - 1] } else { 0.2 };
-            let middle = 0.5 * (inner + self.lift_coefficient.x[i]);
-            let mach = self.table_tip_mach * middle;
+            let row = &drag.z[i];
+            let drag_at = |j: usize| {
+                let k = j.saturating_sub(first).min(row.len() - 2);
+                row[k] + (j as f64 - (first + k) as f64) * (row[k + 1] - row[k])
+            };
+            let mut points = [(0.0, 0.0); ANGLES_MAX];
+            for (j, point) in points.iter_mut().enumerate().take(last + 1) {
+                *point = (lift.z[i][j], drag_at(j));
+            }
+            let inner = if i > 0 { lift.x[i - 1] } else { root_norm };
+            let mach = self.table_tip_mach * 0.5 * (inner + lift.x[i]);
             Region {
-                lift,
-                drag: Grid::new(&self.drag_coefficient, i),
-                zero_lift_rad: lift.root(),
+                points,
+                from_rad: lift.y[0],
+                to_rad: lift.y[last],
+                per_step: 1.0 / step,
+                cell_max: last as f64 - 1.0,
+                zero_lift_rad: lift.y[0] + step * root(&lift.z[i]),
                 table_mach: mach,
                 table_beta: sqrt(1.0 - square(mach)),
                 rise_mach: self.korn_factor - self.thickness_norm.y[i] - DIVERGENCE,
             }
         })
     }
+
+    /// Where among the lift's angles the drag's begin.
+    fn drag_offset(&self) -> usize {
+        let (lift, drag) = (&self.lift_coefficient.y, &self.drag_coefficient.y);
+        lift.iter().position(|angle| (angle - drag[0]).abs() < 1e-9).unwrap_or(0)
+    }
 }
 
-/// A row of a table over equal steps.
-#[derive(Clone, Copy, Debug)]
-struct Grid<'a> {
-    from: f64,
-    per_step: f64,
-    values: &'a [f64],
-}
-
-impl<'a> Grid<'a> {
-    fn new(table: &'a Table2, row: usize) -> Self {
-        let axis = &table.y;
-        Self { from: axis[0], per_step: 1.0 / (axis[1] - axis[0]), values: &table.z[row] }
-    }
-
-    /// Linear between the points and beyond them.
-    fn at(&self, x: f64) -> f64 {
-        let steps = (x - self.from) * self.per_step;
-        // The cast holds negative numbers at zero.
-        let i = (steps as usize).min(self.values.len() - 2);
-        let (low, high) = (self.values[i], self.values[i + 1]);
-        low + (steps - i as f64) * (high - low)
-    }
-
-    /// Where a rising row passes through zero.
-    fn root(&self) -> f64 {
-        let i = self.values.windows(2).position(|pair| pair[1] > 0.0).unwrap_or(0);
-        let (low, high) = (self.values[i], self.values[i + 1]);
-        self.from + (i as f64 - low / (high - low)) / self.per_step
-    }
+/// Where a rising row passes through zero, in steps.
+fn root(row: &[f64]) -> f64 {
+    let i = row.windows(2).position(|pair| pair[1] > 0.0).unwrap_or(0);
+    i as f64 - row[i] / (row[i + 1] - row[i])
 }
 
 /// The section of one region of the blade.
 #[derive(Clone, Copy, Debug)]
-pub struct Region<'a> {
-    lift: Grid<'a>,
-    drag: Grid<'a>,
+pub struct Region {
+    /// cl, cd in equal steps of α.
+    points: [(f64, f64); ANGLES_MAX],
+    from_rad: f64,
+    to_rad: f64,
+    per_step: f64,
+    cell_max: f64,
     /// α0.
     pub zero_lift_rad: f64,
     /// M_t.
@@ -152,7 +158,8 @@ const DELAY_MAX: f64 = 0.5;
 /// a: lift slope that stands for all sections where the tables do not say, per rad.
 pub const LIFT_SLOPE: f64 = 5.7;
 
-impl Region<'_> {
+impl Region {
+    #[inline]
     /// Coefficients at the angle of attack with this sine and cosine; `delay` is 3·(c/r)²·(Ωr/U)².
     pub fn coefficients(
         &self,
@@ -169,18 +176,14 @@ impl Region<'_> {
         let stalled = if cos_alpha > 0.0 { clamp(beyond, 0.0, 1.0) } else { 1.0 };
         let (mut lift, mut drag) = (2.0 * s * cos_alpha, 0.01 + 1.9 * s * s);
         if stalled < 1.0 {
-            // The arc sine by its series: to 1e-5 rad at the plate's 30°.
+            // The arc sine by its series: to 1e-6 rad where the table ends, 5e-4 where the plate begins.
             let s2 = s * s;
-            let alpha = s
-                * (1.0
-                    + s2 * (1.0 / 6.0
-                        + s2 * (3.0 / 40.0 + s2 * (15.0 / 336.0 + s2 * (105.0 / 3456.0)))));
+            let alpha = s * (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0)));
             let slope = self.table_beta / sqrt(1.0 - min(square(mach), MACH2_MAX));
             let scaled = self.zero_lift_rad + (alpha - self.zero_lift_rad) * slope;
-            let within = min(scaled, 12.0 * DEG);
-            let attached = 1.0 - stalled;
-            lift = stalled * lift + attached * self.lift.at(within);
-            drag = stalled * drag + attached * max(self.drag.at(within), 0.0);
+            let (table_lift, table_drag) = self.table(scaled);
+            lift = table_lift + stalled * (lift - table_lift);
+            drag = table_drag + stalled * (drag - table_drag);
         }
         if s > 0.0 && s < DELAY_END && cos_alpha > 0.0 {
             let potential = LIFT_SLOPE * (s - self.zero_lift_rad);
@@ -192,6 +195,18 @@ impl Region<'_> {
             drag += max(rise(mach - rise_mach) - rise(self.table_mach - rise_mach), 0.0);
         }
         Coefficients { lift, drag, stalled }
+    }
+}
+
+impl Region {
+    /// cl and cd: linear between the points and below them, held above.
+    fn table(&self, alpha_rad: f64) -> (f64, f64) {
+        let steps = (min(alpha_rad, self.to_rad) - self.from_rad) * self.per_step;
+        let cell = clamp(steps, 0.0, self.cell_max) as u32;
+        let at = steps - f64::from(cell);
+        let i = cell as usize % (ANGLES_MAX - 1);
+        let ((l0, d0), (l1, d1)) = (self.points[i], self.points[i + 1]);
+        (l0 + at * (l1 - l0), max(d0 + at * (d1 - d0), 0.0))
     }
 }
 
