@@ -97,8 +97,8 @@ pub fn mix(
     let cyclic_rad = params.cyclic_per_longitudinal_stick_rad_per_m.at(tilt_rad) * forward_m;
     let yaw_rad =
         params.cyclic_per_pedal_rad_per_m.at(tilt_rad, sensed.airspeed_mps) * sticks.pedal_right_m;
-    let lateral_rad = params.lateral_cyclic_norm.at(tilt_rad)
-        * params.lateral_cyclic_rad.at(sensed.airspeed_mps);
+    let lateral_rad =
+        params.lateral_cyclic_norm.at(tilt_rad) * params.lateral_cyclic_rad.at(sensed.airspeed_mps);
     let aileron_rad = params.flaperon_per_lateral_stick_rad_per_m * sticks.right_m;
     let detent = pilot.flap_detent.min(FLAP_DETENT_LAST) as usize;
     let locked = sensed.weight_on_wheels

@@ -129,7 +129,8 @@ pub fn advance(params: &Params, state: &State, gimbal: &Gimbal, inputs: &Inputs)
     let stiffness = gimbal.stiffness_per_s2;
 
     // δw·(1 − ihΩ + κ'h²/4 + Dh/2 − iΩDh²/4) = h·(2iΩw − κ + m − (κ' − iΩD)·h/2·ż)
-    let tilting = (state.aft_radps - inputs.hub_pitch_radps, state.right_radps - inputs.hub_roll_radps);
+    let tilting =
+        (state.aft_radps - inputs.hub_pitch_radps, state.right_radps - inputs.hub_roll_radps);
     let spring = per_inertia / 1.5;
     let right_hand = (
         -2.0 * omega * state.right_radps

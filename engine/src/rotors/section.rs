@@ -53,8 +53,7 @@ impl Params {
         let thickness = &self.thickness_norm;
         lift.fault().or_else(|| drag.fault()).or_else(|| thickness.fault()).or_else(|| {
             let step = lift.y[1] - lift.y[0];
-            let even =
-                lift.y.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step);
+            let even = lift.y.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step);
             let known = lift.y.iter().skip(self.drag_offset());
             let same = drag.y.len() <= known.len()
                 && drag.y.iter().zip(known).all(|(a, b)| (a - b).abs() < 1e-9);
