@@ -158,8 +158,8 @@ const DELAY_MAX: f64 = 0.5;
 pub const LIFT_SLOPE: f64 = 5.7;
 
 impl Region {
-    #[inline]
     /// Coefficients at the angle of attack with this sine and cosine; `delay` is 3·(c/r)²·(Ωr/U)².
+    #[inline]
     pub fn coefficients(
         &self,
         (sin_alpha, cos_alpha): (f64, f64),

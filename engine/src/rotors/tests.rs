@@ -170,7 +170,7 @@ fn the_disc_lags_a_turning_mast() {
     let mut inputs = hovering(8.0 * DEG);
     inputs.motion.angular_rate_radps.y = 0.2;
     let (state, out) = settled(&params, &inputs);
-    let lock = DENSITY * 5.7 * 0.3556 * 3.81_f64.powi(4) / 139.0;
+    let lock = DENSITY * 5.7 * 0.3556 * square(square(3.81)) / 139.0;
     let lambda = state.inflow.mean_mps / (OMEGA * params.radius_m);
     let lessened = lock / (1.0 + 5.7 * 0.0891 / (16.0 * lambda));
     let expected = -16.0 / (lessened * OMEGA) * 0.2;
