@@ -201,3 +201,42 @@ fn it_autorotates() {
     assert!((run.out.thrust_n / 28_000.0 - 1.0).abs() < 0.02 && run.out.torque_n_m.abs() < 100.0);
     assert!((3.0..20.0).contains(&run.inputs.motion.airspeed_mps.z));
 }
+
+/// Whatever happens to it, at any speed up to 160 m/s any way, 0 to 700 rpm, -10 to 70 degrees.
+#[test]
+fn no_flight_makes_the_rotor_infinite() {
+    let params = xv15();
+    let blade = params.blade();
+    let mut seed = 7_u64;
+    let mut random = |low: f64, high: f64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((seed >> 11) as f64 / (1_u64 << 53) as f64)
+    };
+    let mut state = State::default();
+    for case in 0..4_000 {
+        let mut inputs = hovering(random(0.0, 700.0), random(-10.0, 70.0) * DEG);
+        let speed_mps = if case % 7 == 0 { 0.0 } else { random(0.0, 160.0) };
+        let (across, up) = (random(-PI, PI), random(-1.0, 1.0));
+        let level = sqrt(1.0 - up * up);
+        inputs.motion.airspeed_mps =
+            Vec3::new(level * cos(across), level * sin(across), up) * speed_mps;
+        inputs.motion.angular_rate_radps =
+            Vec3::new(random(-3.0, 3.0), random(-3.0, 3.0), random(-3.0, 3.0));
+        inputs.mast_tilt_rad = random(-0.09, 0.5 * PI);
+        inputs.cyclic_forward_rad = random(-0.2, 0.2);
+        inputs.cyclic_outboard_rad = random(-0.1, 0.1);
+        inputs.hub_height_m = random(0.0, 30.0);
+        if case % 5 == 0 {
+            inputs.rotor_speed_radps = 0.0;
+        }
+        for _ in 0..125 {
+            let (next, out) = rotor(&params, &blade, &state, &inputs);
+            let load = out.load.force_n.norm() + out.load.moment_n_m.norm() + out.power_w.abs();
+            let flap = next.flapping;
+            let flapping_rad = flap.aft_rad.abs() + flap.right_rad.abs() + flap.coning_rad.abs();
+            assert!(load < 1e9 && flapping_rad < 3.0, "case {case}: {inputs:?} {next:?}");
+            assert!(next.inflow.mean_mps.abs() < 300.0, "case {case}: {inputs:?} {next:?}");
+            state = next;
+        }
+    }
+}
