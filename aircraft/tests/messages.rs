@@ -45,10 +45,8 @@ fn an_unknown_key() {
         "rotors",
         "radius_ft",
         &format!("chrod_in = {{ value = 14.0, {SOURCED}"),
-        "rotors.chrod_in: unknown key; expected one of radius_m, solidity, lift_slope_per_rad, \
-         lift_coefficient_max, drag_coefficient_min, drag_coefficient_per_lift2, \
-         induced_power_factor, lock_number, hub_spring_n_m_per_rad, flapping_rad_max, \
-         polar_inertia_kg_m2, pivot_m, mast_length_m, mast_cant_rad \
+        "rotors.chrod_in: unknown key; expected one of radius_m, solidity, polar_inertia_kg_m2, \
+         pivot_m, mast_length_m, mast_cant_rad, blade, inflow, flapping \
          (or the same in another unit)",
     );
 }

@@ -1,14 +1,17 @@
 //! The XV-15's file as the engine sees it.
 
-use engine::aero::{Motion, wing_pylon};
+mod rotor_stand;
+
+use engine::aero::wing_pylon;
 use engine::frames::Vec3;
 use engine::inputs::World;
-use engine::math::{PI, sqrt, square};
-use engine::{Aircraft, Inputs, State, rotors};
+use engine::math::{PI, square};
+use engine::symmetry::Mirror;
+use engine::{Aircraft, Inputs, State};
+use rotor_stand::{hover_at, hovering};
 
 const DEG: f64 = PI / 180.0;
 const LBF: f64 = 4.448_221_615_260_5;
-const DENSITY: f64 = engine::environment::DENSITY_SL_KG_PER_M3;
 
 fn xv15() -> Aircraft {
     aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|error| panic!("{error}"))
@@ -24,7 +27,7 @@ fn numbers_arrive_in_si() {
     let xv15 = xv15();
     close(xv15.rotors.radius_m, 3.81);
     close(xv15.rotors.pivot_m.y, 4.9022);
-    close(xv15.rotors.flapping_rad_max, PI / 15.0);
+    close(xv15.rotors.flapping.flapping_rad_max, PI / 15.0);
     close(xv15.fcc.governor.rotor_speed_radps[0], 589.0 * PI / 30.0);
     close(xv15.fcc.mixer.flap_rad[2], 40.0 * DEG);
     close(xv15.engines.rated_power_w, 1375.0 * 745.699_871_582_270_2);
@@ -76,115 +79,29 @@ fn cockpit_maps_and_scenario_load() {
     close(start.origin.latitude_rad, 19.7203 * DEG);
 }
 
-// ------------------------------------------------------------------------------------ rotor
-
-fn hovering(collective_rad: f64) -> rotors::Inputs {
-    rotors::Inputs {
-        motion: Motion {
-            cg_m: Vec3::new(7.65, 0.0, 2.074),
-            airspeed_mps: Vec3::zero(),
-            angular_rate_radps: Vec3::zero(),
-            density_kg_per_m3: DENSITY,
-        },
-        mast_tilt_rad: 0.0,
-        mast_tilt_rate_radps: 0.0,
-        rotor_speed_radps: 589.0 * PI / 30.0,
-        collective_rad,
-        cyclic_forward_rad: 0.0,
-        hub_height_m: 1e9,
-    }
-}
-
-/// A rotor far from the ground, its inflow settled.
-struct Hover {
-    collective_rad: f64,
-    thrust_n: f64,
-    induced_mps: f64,
-    c_t: f64,
-    c_p: f64,
-}
-
-fn hover(params: &rotors::Params, collective_rad: f64) -> Hover {
-    let inputs = hovering(collective_rad);
-    let mut state = rotors::State { induced_mps: 10.0, ..rotors::State::default() };
-    for _ in 0..2_000 {
-        let (rate, _) = rotors::rotor(params, &state, &inputs);
-        state.induced_mps += engine::STEP_S * rate.induced_mps2;
-    }
-    let (_, out) = rotors::rotor(params, &state, &inputs);
-    let tip_mps = inputs.rotor_speed_radps * params.radius_m;
-    let c_t = out.thrust_n / (DENSITY * params.disc_area_m2() * square(tip_mps));
-    let c_p = out.power_w / (DENSITY * params.disc_area_m2() * square(tip_mps) * tip_mps);
-    Hover { collective_rad, thrust_n: out.thrust_n, induced_mps: out.induced_mps, c_t, c_p }
-}
-
-/// The hover with this thrust coefficient.
-fn hover_at(params: &rotors::Params, c_t: f64) -> Hover {
-    let (mut low, mut high) = (-5.0 * DEG, 20.0 * DEG);
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if hover(params, middle).c_t < c_t {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    hover(params, low)
-}
-
-/// CR-2017-219486 Table A-2 (OARF run 15): CT, figure of merit, for .06 < CT/sigma < .15.
-const OARF: [(f64, f64); 4] =
-    [(0.007_391, 0.7641), (0.010_104, 0.7866), (0.011_063, 0.7881), (0.013_089, 0.7797)];
-
-/// The test facilities disagree by .04; the validation plan takes half of it.
-const FIGURE_OF_MERIT_TOLERANCE: f64 = 0.02;
-
-#[test]
-fn val_figure_of_merit_is_that_of_the_oarf_hover_test() {
-    let rotors = xv15().rotors;
-    for (c_t, measured) in OARF {
-        let at = hover_at(&rotors, c_t);
-        let merit = at.c_t * sqrt(at.c_t / 2.0) / at.c_p;
-        println!(
-            "CT {c_t}: {merit:.4}, measured {measured}, collective {:.2} deg",
-            at.collective_rad / DEG
-        );
-        assert!((merit - measured).abs() < FIGURE_OF_MERIT_TOLERANCE, "CT {c_t}: {merit}");
-    }
-}
-
-/// The collective's zero is another one in every source; its slope, .00093 per degree, is not.
-#[test]
-fn val_thrust_grows_with_collective_as_in_the_oarf_hover_test() {
-    let rotors = xv15().rotors;
-    let (low, high) = (hover_at(&rotors, 0.0091), hover_at(&rotors, 0.0111));
-    let slope_per_deg = (high.c_t - low.c_t) / (high.collective_rad - low.collective_rad) * DEG;
-    assert!((slope_per_deg / 0.000_93 - 1.0).abs() < 0.07, "{slope_per_deg}");
-}
-
 // ----------------------------------------------------------------------------- whole aircraft
 
 /// Download over thrust with the flaps at a detent.
 fn download(xv15: &Aircraft, detent: usize) -> f64 {
-    let at = hover_at(&xv15.rotors, 0.0105);
-    let (motion, thrust_axis) = (hovering(0.0).motion, xv15.rotors.thrust_axis(0.0));
+    let at = hover_at(&xv15.rotors, 589.0, 0.0105);
+    let (motion, thrust_axis) = (hovering(589.0, 0.0).motion, xv15.rotors.thrust_axis(0.0));
     let load = wing_pylon::half_wing(
         &xv15.wing_pylon,
         &wing_pylon::Inputs {
             motion,
             mach: 0.0,
             alpha_rad: 0.0,
-            wake_mps: thrust_axis * (xv15.rotor_wake.wing_factor * at.induced_mps),
+            wake_mps: thrust_axis * (xv15.rotor_wake.wing_factor * at.out.induced_mps),
             mast_tilt_rad: 0.0,
             thrust_axis,
-            induced_mps: at.induced_mps,
+            induced_mps: at.out.induced_mps,
             pivot_m: xv15.rotors.pivot_m,
             hub_from_cg_m: xv15.rotors.hub_from_cg(motion.cg_m, 0.0),
             flap_rad: xv15.fcc.mixer.flap_rad[detent],
             flaperon_rad: 0.0,
         },
     );
-    load.total().force_n.z / at.thrust_n
+    load.total().force_n.z / at.out.thrust_n
 }
 
 /// CR176970, flown with full-span flaps: download over thrust, flaps 0, 20, 40.
@@ -210,17 +127,26 @@ fn val_download_in_hover_is_that_of_the_flight_test() {
 const HOVER_POWER_W: std::ops::Range<f64> = 1.42e6..1.51e6;
 
 /// The thrust whose part above the wing's download carries 13,000 lb, less what the jets carry.
+///
+/// Our rotor is the isolated one of the OARF test, figure of merit .79; in flight, beside the wing and
+/// the other rotor, it reached .74 (CR176970). That loss is not modelled: a miss, not passed.
 #[test]
-fn val_hover_at_design_weight_takes_the_published_power() {
+fn the_hover_power_at_design_weight_is_a_known_miss() {
     let xv15 = xv15();
     let jets_n = 2.0 * 83.0 * LBF;
     let thrust_n = (13_000.0 * LBF - jets_n) / (1.0 - download(&xv15, 2));
     let tip_mps = 589.0 * PI / 30.0 * xv15.rotors.radius_m;
-    let disc_n = DENSITY * xv15.rotors.disc_area_m2() * square(tip_mps);
-    let at = hover_at(&xv15.rotors, 0.5 * thrust_n / disc_n);
-    let power_w = 2.0 * at.c_p * disc_n * tip_mps;
-    println!("{power_w:.0} W, collective {:.2} deg", at.collective_rad / DEG);
-    assert!(HOVER_POWER_W.contains(&power_w), "{power_w} W");
+    let disc_n = rotor_stand::DENSITY * xv15.rotors.disc_area_m2() * square(tip_mps);
+    let at = hover_at(&xv15.rotors, 589.0, 0.5 * thrust_n / disc_n);
+    let power_w = 2.0 * at.out.power_w;
+    println!(
+        "hover at 13,000 lb: {power_w:.0} W, published {HOVER_POWER_W:?}; collective {:.2} deg",
+        at.inputs.collective_rad / DEG
+    );
+    assert!(
+        power_w > 0.95 * HOVER_POWER_W.start && !HOVER_POWER_W.contains(&power_w),
+        "{power_w} W: no miss any more? Update VALIDATION.md"
+    );
 }
 
 fn started(xv15: &Aircraft) -> State {
@@ -261,4 +187,26 @@ fn an_idling_aircraft_stays_where_it_is() {
     assert!(state.plant.velocity_mps.norm() < 1e-3, "{:?}", state.plant.velocity_mps);
     let moved_m = Vec3::new(0.0, 0.0, state.plant.position_m.z) - state.plant.position_m;
     assert!(moved_m.norm() < 0.02, "{moved_m:?}");
+}
+
+/// The left rotor is computed as the image of a right one: a mirrored flight is the mirrored state.
+#[test]
+fn a_mirrored_flight_is_the_mirrored_state() {
+    let xv15 = xv15();
+    let mut state = started(&xv15);
+    state.plant.position_m.z -= 300.0;
+    state.plant.velocity_mps = Vec3::new(25.0, 6.0, 1.0);
+    state.plant.angular_rate_radps = Vec3::new(0.2, -0.1, 0.3);
+    state.cockpit.collective_norm = 0.6;
+    state.cockpit.stick_right_norm = 0.2;
+    state.cockpit.pedal_right_norm = -0.1;
+    state.cockpit.nacelle_aft_norm = -1.0;
+    let wind = World { wind_mps: Vec3::new(-3.0, 4.0, 0.5), ..World::default() };
+    let mut image = state.mirrored();
+    for tick in 0..750 {
+        state = engine::step(&xv15, &state, &Inputs { events: &[], world: wind }).0;
+        image = engine::step(&xv15, &image, &Inputs { events: &[], world: wind.mirrored() }).0;
+        assert_eq!(image, state.mirrored(), "tick {tick}");
+    }
+    assert!(state.frozen == 0 && state.actuators.mast_tilt_rad.left > 0.1);
 }

@@ -39,7 +39,7 @@ pub struct Actuator {
 pub struct Params {
     /// Collective pitch at ¾ radius.
     pub collective: Actuator,
-    /// Longitudinal cyclic.
+    /// Longitudinal and lateral cyclic.
     pub cyclic: Actuator,
     /// Elevator.
     pub elevator: Actuator,
@@ -66,6 +66,8 @@ pub struct State {
     pub collective_rad: Pair<f64>,
     /// B1.
     pub cyclic_forward_rad: Pair<f64>,
+    /// A1, tilting the discs outboard.
+    pub cyclic_outboard_rad: Pair<f64>,
     /// δe.
     pub elevator_rad: f64,
     /// Beyond the flap's setting, down.
@@ -116,6 +118,11 @@ pub fn update(params: &Params, state: &State, commands: &Commands) -> State {
             state.cyclic_forward_rad,
             commands.cyclic_forward_rad,
         ),
+        cyclic_outboard_rad: both(
+            &params.cyclic,
+            state.cyclic_outboard_rad,
+            commands.cyclic_outboard_rad,
+        ),
         elevator_rad: params.elevator.toward(state.elevator_rad, commands.elevator_rad),
         flaperon_rad: both(&params.flaperon, state.flaperon_rad, commands.flaperon_rad),
         rudder_right_rad: params.rudder.toward(state.rudder_right_rad, commands.rudder_right_rad),
@@ -139,6 +146,7 @@ pub fn settled(params: &Params, state: &State, commands: &Commands) -> State {
     State {
         collective_rad: commands.collective_rad.map(|rad| at(&params.collective, rad)),
         cyclic_forward_rad: commands.cyclic_forward_rad.map(|rad| at(&params.cyclic, rad)),
+        cyclic_outboard_rad: commands.cyclic_outboard_rad.map(|rad| at(&params.cyclic, rad)),
         elevator_rad: at(&params.elevator, commands.elevator_rad),
         flaperon_rad: commands.flaperon_rad.map(|rad| at(&params.flaperon, rad)),
         rudder_right_rad: at(&params.rudder, commands.rudder_right_rad),

@@ -11,7 +11,7 @@ use crate::{actuators, cockpit, engines, environment, fcc, rotors, weight_balanc
 
 /// Where the model's answer is no longer to be trusted, as bits of [`Outputs::validity`].
 pub mod validity {
-    /// A rotor's mean section is beyond its greatest lift.
+    /// A tenth of a rotor's outer blades is beyond its greatest lift.
     pub const ROTOR_STALL: u64 = 1;
     /// A rotor descends into its own wake.
     pub const VORTEX_RING: u64 = 1 << 1;
@@ -25,6 +25,8 @@ pub mod validity {
     pub const FROZEN: u64 = 1 << 5;
     /// The hull touches the ground: a wreck.
     pub const HULL: u64 = 1 << 6;
+    /// A rotor's gimbal is on its stop.
+    pub const FLAPPING_STOP: u64 = 1 << 7;
 }
 
 /// Loads on the airframe by component, each about the centre of gravity.

@@ -14,11 +14,23 @@
 //!   Aircraft Rotor/Wing Download*, 1986. Hover power and download in flight.
 //! - **KH**: Kleinhesselink, *Stability and Control Modeling of Tiltrotor Aircraft*, University of
 //!   Maryland, 2007. A low-order airframe model.
+//! - **TP04**: Acree, Peyran, Johnson, *Rotor Design Options for Improving XV-15 Whirl-Flutter Stability
+//!   Margins*, NASA TP-2004-212262, 2004. Blade twist, chord, section tables, through transcriptions.
+//! - **OARF**: Harris, *Hover Performance of Isolated Proprotors and Propellers*, NASA CR-2017-219486,
+//!   Table A-2, run 15: the metal blades in hover on the outdoor test stand.
 //! - **ISO2533**: *Standard Atmosphere*, 1975.
 //! - **MIL8785**: MIL-F-8785C, *Flying Qualities of Piloted Airplanes*, 1980, section 3.7: wind shear,
 //!   discrete gusts, Dryden turbulence.
 //! - **PETERS**: Pitt and Peters, *Theoretical Prediction of Dynamic-Inflow Derivatives*, Vertica 5,
-//!   1981. Apparent mass of the inflow.
+//!   1981. The three-state inflow.
+//! - **GESSOW**: Gessow, Myers, *Aerodynamics of the Helicopter*, 1952. Inflow annulus by annulus.
+//! - **LEISHMAN**: Leishman, *Principles of Helicopter Aerodynamics*, 2nd ed. Mean inflow in the vortex
+//!   ring state, a fit to measurements; recalled.
+//! - **SNEL**: Snel, Houwink, Bosschers, *Sectional Prediction of Lift Coefficients on Rotating Wind
+//!   Turbine Blades in Stall*, ECN-C-93-052, 1994. Rotational stall delay; recalled.
+//! - **JOHNSON**: Johnson, *Helicopter Theory*, 1980. Gimbal and coning in multiblade coordinates.
+//! - **KORN**: Korn's rule with Lock's fourth power, as in Mason, *Configuration Aerodynamics*. Drag
+//!   divergence of a section; recalled.
 //! - **CHEESEMAN**: Cheeseman and Bennett, *The Effect of the Ground on a Helicopter Rotor in Forward
 //!   Flight*, ARC R&M 3021, 1955.
 //! - **STEVENS**: Stevens, Lewis, Johnson, *Aircraft Control and Simulation*, 3rd ed. Rigid-body

@@ -139,7 +139,7 @@ impl Start {
         let sag_m = weight_n / (2.0 * gear.main.stiffness_n_per_m + gear.nose.stiffness_n_per_m);
         let height_m = weights.cg_m.z - gear.main.tyre_m.z - sag_m;
         let rotor_speed_radps = aircraft.fcc.governor.rotor_speed_radps[0];
-        let collective_rad = aircraft.fcc.governor.collective_rad_min.at(0.0);
+        let collective_rad = aircraft.fcc.governor.lowest_rad(0.0);
         let mut state = State {
             cockpit: cockpit::State {
                 flap_detent: self.flap_detent.min(cockpit::FLAP_DETENT_LAST),
@@ -167,7 +167,7 @@ impl Start {
                     heading_rad: self.heading_rad,
                     ..Euler::default()
                 }),
-                rotors: Pair::both(rotors::State { induced_mps: 1.0, ..rotors::State::default() }),
+                rotors: Pair::both(rotors::State::default()),
                 rotor_speed_radps,
                 fuel_kg: self.fuel_kg,
                 ..Plant::default()

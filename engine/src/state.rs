@@ -45,7 +45,7 @@ pub struct Plant {
     pub attitude: Attitude,
     /// ω.
     pub angular_rate_radps: Vec3<Body>,
-    /// Inflow and tip path of each rotor; the left one as its mirror image.
+    /// Inflow and flapping of each rotor; the left one as its mirror image.
     pub rotors: Pair<rotors::State>,
     /// Downwash on its way from the wing to the tail.
     pub horizontal_stabilizer: horizontal_stabilizer::State,
@@ -80,8 +80,6 @@ pub struct Geodetic {
 pub struct PlantRate {
     /// Of the motion.
     pub motion: eom::Rate,
-    /// Of each rotor.
-    pub rotors: Pair<rotors::Rate>,
     /// Of the downwash at the tail.
     pub horizontal_stabilizer: horizontal_stabilizer::Rate,
     /// Of rotor speed, power and fuel.
@@ -179,7 +177,7 @@ numbers! {
     }
     fcc::governor::State { reference_radps, integral_rad, correction_rad }
     actuators::State {
-        collective_rad, cyclic_forward_rad, elevator_rad, flaperon_rad, rudder_right_rad, flap_rad,
+        collective_rad, cyclic_forward_rad, cyclic_outboard_rad, elevator_rad, flaperon_rad, rudder_right_rad, flap_rad,
         mast_tilt_rad, mast_tilt_rate_radps, gear_extension_norm, lever_norm, brake_norm,
     }
     environment::State {
@@ -191,14 +189,17 @@ numbers! {
     }
     Geodetic { latitude_rad, longitude_rad, height_m }
     Attitude { w, x, y, z }
-    rotors::State { induced_mps, tilt_aft_rad, tilt_right_rad }
+    rotors::State { inflow, flapping }
+    rotors::inflow::State { mean_mps, aft_mps, right_mps }
+    rotors::flapping::State {
+        coning_rad, coning_radps, aft_rad, aft_radps, right_rad, right_radps,
+    }
     horizontal_stabilizer::State { downwash_rad }
     engines::State { power_w }
     Tread { forward_m, right_m }
-    PlantRate { motion, rotors, horizontal_stabilizer, engines }
-    eom::Rate { acceleration_mps2, angular_acceleration_radps2 }
-    rotors::Rate { induced_mps2, tilt_aft_radps, tilt_right_radps }
+    PlantRate { motion, horizontal_stabilizer, engines }
     horizontal_stabilizer::Rate { downwash_radps }
+    eom::Rate { acceleration_mps2, angular_acceleration_radps2 }
     engines::Rate { power_w_per_s, rotor_speed_radps2, fuel_kg_per_s }
 }
 
@@ -222,7 +223,7 @@ impl State {
     }
 
     /// The names of the numbers, in the same order, with the parts that they are in:
-    /// `plant.rotors.left.induced_mps`.
+    /// `plant.rotors.left.inflow.mean_mps`.
     pub fn number_names(&self) -> alloc::vec::Vec<String> {
         let mut names = alloc::vec::Vec::new();
         self.names("", &mut |name| names.push(name));
@@ -247,13 +248,13 @@ mod tests {
         let names = state.number_names();
         let mut count = 0;
         state.each_number(|number| {
-            if names[count] == "plant.rotors.right.induced_mps" {
+            if names[count] == "plant.rotors.right.inflow.mean_mps" {
                 *number = 7.0;
             }
             count += 1;
         });
         assert_eq!(count, names.len());
-        assert_eq!(state.plant.rotors.right.induced_mps.to_bits(), 7.0f64.to_bits());
+        assert_eq!(state.plant.rotors.right.inflow.mean_mps.to_bits(), 7.0f64.to_bits());
     }
 
     #[test]

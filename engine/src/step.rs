@@ -44,7 +44,7 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
 
     // Integrated across the tick.
     let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world, &air);
-    let plant = advance(&sampled.plant, &blocks.rate, &state.rate, &blocks.gear);
+    let plant = advance(&sampled.plant, &blocks, &state.rate);
     let plant = above_ground(aircraft, plant, &inputs.world);
     let next = State { plant, rate: blocks.rate, ..sampled }.without_negative_zeros();
     let next = if next.is_finite() { next } else { State { frozen: 1, ..held } };
@@ -63,7 +63,7 @@ pub fn heading(aircraft: &Aircraft, state: &State, world: &World) -> (State, Out
     let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
     let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
     let blocks = Blocks::evaluate(aircraft, state, world, &air);
-    let plant = advance(&state.plant, &blocks.rate, &blocks.rate, &blocks.gear);
+    let plant = advance(&state.plant, &blocks, &blocks.rate);
     let outputs = Outputs { commands, ..blocks.outputs(state) };
     (State { fcc, actuators, environment, plant, rate: blocks.rate, ..*state }, outputs)
 }
@@ -114,7 +114,8 @@ fn sense(state: &State, air: &environment::Outputs) -> fcc::Sensed {
 }
 
 /// The plant one tick later.
-fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear) -> Plant {
+fn advance(plant: &Plant, blocks: &Blocks, rate_before: &PlantRate) -> Plant {
+    let (rate, gear) = (&blocks.rate, &blocks.gear);
     let ab2 = |now: f64, before: f64| STEP_S * (1.5 * now - 0.5 * before);
     let motion = (&rate.motion, &rate_before.motion);
     let velocity_mps = plant.velocity_mps
@@ -122,15 +123,6 @@ fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear
     let angular_rate_radps = plant.angular_rate_radps
         + (motion.0.angular_acceleration_radps2 * 1.5 - motion.1.angular_acceleration_radps2 * 0.5)
             * STEP_S;
-    let rotors =
-        plant.rotors.zip(rate.rotors.zip(rate_before.rotors)).map(|(rotor, (now, before))| {
-            rotors::State {
-                induced_mps: rotor.induced_mps + ab2(now.induced_mps2, before.induced_mps2),
-                tilt_aft_rad: rotor.tilt_aft_rad + ab2(now.tilt_aft_radps, before.tilt_aft_radps),
-                tilt_right_rad: rotor.tilt_right_rad
-                    + ab2(now.tilt_right_radps, before.tilt_right_radps),
-            }
-        });
     let (tail, tail_before) = (&rate.horizontal_stabilizer, &rate_before.horizontal_stabilizer);
     let (drive, drive_before) = (&rate.engines, &rate_before.engines);
     let engines = plant.engines.zip(drive.power_w_per_s.zip(drive_before.power_w_per_s)).map(
@@ -149,7 +141,7 @@ fn advance(plant: &Plant, rate: &PlantRate, rate_before: &PlantRate, gear: &Gear
             .attitude
             .turned_by((plant.angular_rate_radps + angular_rate_radps) * (0.5 * STEP_S)),
         angular_rate_radps,
-        rotors,
+        rotors: blocks.rotors_next,
         horizontal_stabilizer: horizontal_stabilizer::State {
             downwash_rad: plant.horizontal_stabilizer.downwash_rad
                 + ab2(tail.downwash_radps, tail_before.downwash_radps),
@@ -189,6 +181,7 @@ struct Blocks {
     motion: Motion,
     balance: weight_balance::Outputs,
     rotors: Pair<rotors::Outputs>,
+    rotors_next: Pair<rotors::State>,
     engines: engines::Outputs,
     gear: Gear,
     loads: Loads,
@@ -224,7 +217,8 @@ impl Blocks {
             surfaces.mast_tilt_rad.map(|tilt_rad| aircraft.rotors.thrust_axis(tilt_rad));
         let height_above_ground_m = -plant.position_m.z - world.ground_height_m;
 
-        let from_rotors = rotors(aircraft, state, motions, &ned_from_body, height_above_ground_m);
+        let from_rotors =
+            rotors(aircraft, state, motions, &air, &ned_from_body, height_above_ground_m);
         let rotors = from_rotors.map(|(_, outputs)| outputs);
         let (engine_rate, engines) = engines::engines(
             &aircraft.engines,
@@ -285,17 +279,16 @@ impl Blocks {
             landing_gear: Struts { nose: legs.nose.load, main: legs.main.map(|leg| leg.load) },
         };
         let total = loads.total();
-        let spin = rotor_momentum(aircraft, state, thrust_axes, engine_rate.rotor_speed_radps2);
+        let spin_up = spin_up(aircraft, thrust_axes, engine_rate.rotor_speed_radps2);
         let rate = PlantRate {
             motion: eom::motion(&eom::Inputs {
                 load: total,
                 balance,
                 ned_from_body,
                 angular_rate_radps: plant.angular_rate_radps,
-                rotor_momentum_n_m_s: spin.0,
-                rotor_momentum_rate_n_m: spin.1,
+                rotor_momentum_n_m_s: Vec3::zero(),
+                rotor_momentum_rate_n_m: spin_up,
             }),
-            rotors: from_rotors.map(|(rate, _)| rate),
             horizontal_stabilizer: stabilizer_rate,
             engines: engine_rate,
         };
@@ -307,6 +300,7 @@ impl Blocks {
             motion,
             balance,
             rotors,
+            rotors_next: from_rotors.map(|(next, _)| next),
             engines,
             gear,
             loads,
@@ -365,19 +359,15 @@ impl Blocks {
 
     fn validity(&self, next: &State) -> u64 {
         let flag = |bit: u64, set: bool| if set { bit } else { 0 };
-        // Through the air and along the masts, which stand upright where it counts.
-        let sinking_mps = self.motion.airspeed_mps.z;
-        let induced_mps = self.rotors.map(|rotor| rotor.induced_mps).mean();
-        let upright = next.actuators.mast_tilt_rad.mean() < 0.5;
         let airborne = next.plant.weight_on_wheels == 0;
-        let slow = self.rotors.left.advance_ratio < 0.05 && self.rotors.right.advance_ratio < 0.05;
         let legs = &self.gear.legs;
         let bottomed =
             [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
         flag(validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
+            | flag(validity::FLAPPING_STOP, self.rotors.map(|rotor| rotor.on_stop).sum() > 0)
             | flag(
                 validity::VORTEX_RING,
-                airborne && upright && slow && sinking_mps > 0.5 * max(induced_mps, 2.0),
+                airborne && self.rotors.map(|rotor| rotor.in_vortex_ring).sum() > 0,
             )
             | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
             | flag(validity::HEIGHT, next.plant.origin.height_m - next.plant.position_m.z > 12e3)
@@ -392,29 +382,34 @@ fn rotors(
     aircraft: &Aircraft,
     state: &State,
     motions: Pair<Motion>,
+    air: &environment::Outputs,
     ned_from_body: &Rotation<Ned, Body>,
     height_above_ground_m: f64,
-) -> Pair<(rotors::Rate, rotors::Outputs)> {
+) -> Pair<(rotors::State, rotors::Outputs)> {
     let surfaces = &state.actuators;
+    let cyclic = surfaces.cyclic_forward_rad.zip(surfaces.cyclic_outboard_rad);
     let controls = surfaces
         .mast_tilt_rad
         .zip(surfaces.mast_tilt_rate_radps)
-        .zip(surfaces.collective_rad.zip(surfaces.cyclic_forward_rad));
+        .zip(surfaces.collective_rad.zip(cyclic));
     let sides = Pair { left: -1.0, right: 1.0 };
+    let blade = aircraft.rotors.blade();
     state.plant.rotors.zip(motions.zip(controls.zip(sides))).map(
         |(rotor, (motion, (((mast_tilt_rad, mast_tilt_rate_radps), pitch), side)))| {
             let hub = aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad);
             let hub: Vec3<Body> = Vec3::new(hub.x, side * hub.y, hub.z);
             let inputs = rotors::Inputs {
                 motion,
+                sound_speed_mps: air.sound_speed_mps,
                 mast_tilt_rad,
                 mast_tilt_rate_radps,
                 rotor_speed_radps: state.plant.rotor_speed_radps,
                 collective_rad: pitch.0,
-                cyclic_forward_rad: pitch.1,
+                cyclic_forward_rad: pitch.1.0,
+                cyclic_outboard_rad: pitch.1.1,
                 hub_height_m: height_above_ground_m - (*ned_from_body * hub).z,
             };
-            rotors::rotor(&aircraft.rotors, &rotor, &inputs)
+            rotors::rotor(&aircraft.rotors, &blade, &rotor, &inputs)
         },
     )
 }
@@ -486,24 +481,17 @@ fn fins(
     })
 }
 
-/// Angular momentum of both rotors, and its rate in body axes from spin-up and nacelle tilt.
+/// Rate of both rotors' angular momentum from spin-up.
 ///
-/// The right rotor turns about its thrust axis, the left one the other way round.
-fn rotor_momentum(
+/// The right rotor turns about its thrust axis, the left one the other way round. What turns with
+/// the airframe is not here: a gimballed rotor does not follow its mast but precesses, and what it
+/// gives the airframe is in its load.
+fn spin_up(
     aircraft: &Aircraft,
-    state: &State,
     thrust_axes: Pair<Vec3<Body>>,
     rotor_speed_radps2: f64,
-) -> (Vec3<Body>, Vec3<Body>) {
-    let polar_kg_m2 = aircraft.rotors.polar_inertia_kg_m2;
-    let both = |right_handed: Pair<Vec3<Body>>| {
-        Pair { left: right_handed.left.mirrored_axial(), right: right_handed.right }.sum()
-    };
-    let spin = polar_kg_m2 * state.plant.rotor_speed_radps;
-    let spin_up = polar_kg_m2 * rotor_speed_radps2;
-    let rate = thrust_axes.zip(state.actuators.mast_tilt_rate_radps).map(|(axis, tilt_radps)| {
-        // Tilting forward is a nose-down turn.
-        axis * spin_up + Vec3::new(0.0, -tilt_radps, 0.0).cross(axis * spin)
-    });
-    (both(thrust_axes.map(|axis| axis * spin)), both(rate))
+) -> Vec3<Body> {
+    let spin_up = aircraft.rotors.polar_inertia_kg_m2 * rotor_speed_radps2;
+    let right_handed = thrust_axes.map(|axis| axis * spin_up);
+    Pair { left: right_handed.left.mirrored_axial(), right: right_handed.right }.sum()
 }

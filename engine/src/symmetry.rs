@@ -61,6 +61,7 @@ impl Mirror for actuators::State {
         Self {
             collective_rad: self.collective_rad.swapped(),
             cyclic_forward_rad: self.cyclic_forward_rad.swapped(),
+            cyclic_outboard_rad: self.cyclic_outboard_rad.swapped(),
             flaperon_rad: self.flaperon_rad.swapped(),
             rudder_right_rad: -self.rudder_right_rad,
             mast_tilt_rad: self.mast_tilt_rad.swapped(),
@@ -114,7 +115,6 @@ impl Mirror for PlantRate {
                     .angular_acceleration_radps2
                     .mirrored_axial(),
             },
-            rotors: self.rotors.swapped(),
             horizontal_stabilizer: self.horizontal_stabilizer,
             engines: engines::Rate {
                 power_w_per_s: self.engines.power_w_per_s.swapped(),

@@ -468,8 +468,8 @@ impl<'a> Problem<'a> {
             outer[CLIMB] = if lever > 0.5 { 0.0 } else { slow };
         }
         let mut state = self.state(&outer, None);
-        state.plant.rotors.right.induced_mps = 10.0 * cos(target.mast_tilt_rad) + 1.0;
-        state.plant.rotors.left.induced_mps = state.plant.rotors.right.induced_mps;
+        state.plant.rotors.right.inflow.mean_mps = 10.0 * cos(target.mast_tilt_rad) + 1.0;
+        state.plant.rotors.left.inflow.mean_mps = state.plant.rotors.right.inflow.mean_mps;
         self.settled(&outer, state)
     }
 

@@ -102,7 +102,7 @@ const FAILURES: [(u64, &str); 6] = [
     (failures::GOVERNOR, "governor"),
 ];
 
-const VALIDITY: [(u64, &str); 7] = [
+const VALIDITY: [(u64, &str); 8] = [
     (validity::ROTOR_STALL, "rotor stall"),
     (validity::VORTEX_RING, "vortex ring"),
     (validity::SPEED, "speed"),
@@ -110,6 +110,7 @@ const VALIDITY: [(u64, &str); 7] = [
     (validity::GEAR_BOTTOMED, "gear bottomed"),
     (validity::FROZEN, "numbers not finite"),
     (validity::HULL, "hull on the ground"),
+    (validity::FLAPPING_STOP, "flapping stop"),
 ];
 
 /// The names of the set bits, or "nothing".

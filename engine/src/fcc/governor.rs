@@ -6,7 +6,8 @@
 //! ```
 //! Gains fall from helicopter to aeroplane, where a degree of collective takes more torque. Ω_ref
 //! moves to a newly selected speed at a fixed rate; speeds other than the helicopter's are granted
-//! only with the nacelles down.
+//! only with the nacelles down. θ_min is never below the pitch of least torque: beyond it less pitch
+//! takes more torque, and the governor would work the wrong way.
 //! # Signs
 //! Overspeed positive: it raises the collective.
 
@@ -36,6 +37,8 @@ pub struct Params {
     pub aeroplane_gain: f64,
     /// θ_min at ¾ radius, over mast tilt.
     pub collective_rad_min: Table1,
+    /// Pitch of least torque as a helicopter without thrust, at ¾ radius.
+    pub least_torque_rad: f64,
     /// θ_max at ¾ radius.
     pub collective_rad_max: f64,
     /// How fast the governor may move the collective.
@@ -68,9 +71,16 @@ pub struct Inputs {
     pub failed: bool,
 }
 
+impl Params {
+    /// θ_min.
+    pub fn lowest_rad(&self, mast_tilt_rad: f64) -> f64 {
+        max(self.collective_rad_min.at(mast_tilt_rad), self.least_torque_rad)
+    }
+}
+
 /// The state after the tick, and the collective for both rotors, rad at ¾ radius.
 pub fn update(params: &Params, state: &State, inputs: &Inputs) -> (State, f64) {
-    let low_rad = params.collective_rad_min.at(inputs.mast_tilt_rad);
+    let low_rad = params.lowest_rad(inputs.mast_tilt_rad);
     let within = |rad: f64| {
         clamp(
             rad,

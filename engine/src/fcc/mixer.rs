@@ -3,15 +3,15 @@
 //! # Equations
 //! ```text
 //! θ_R,L = θ ∓ dθ/dXLT(βm)·XLT        B1_R,L = dB1/dXLN(βm)·XLN ∓ dB1/dXP(βm, V)·XP       [CR536 8a]
+//! A1_R,L = g(βm)·A1(V)                                       programmed, outboard          [CR536 8a]
 //! δe = K_e·XLN     δr = K_r·XP     δa = ±K_a·XLT
 //! ```
 //! # Signs
 //! XLN forward, XLT right, XP right positive: stick forward tilts both discs forward and lowers the
 //! elevator's trailing edge; stick right takes collective off the right rotor and raises the right
 //! flaperon; right pedal tilts the right disc aft and the left one forward.
-//! # Assumptions
-//! The programmed lateral cyclic is left out: the rotor model has no lateral flapping for it to take
-//! away.
+//! A1 positive tilts both discs outboard; the programme is negative, against the lateral flapping of
+//! forward flight.
 
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +34,10 @@ pub struct Params {
     pub cyclic_per_longitudinal_stick_rad_per_m: Table1,
     /// dB1/dXP over mast tilt and airspeed.
     pub cyclic_per_pedal_rad_per_m: Table2,
+    /// A1 over airspeed.
+    pub lateral_cyclic_rad: Table1,
+    /// g over mast tilt.
+    pub lateral_cyclic_norm: Table1,
     /// K_e.
     pub elevator_per_longitudinal_stick_rad_per_m: f64,
     /// K_r.
@@ -53,6 +57,8 @@ pub struct Commands {
     pub collective_rad: Pair<f64>,
     /// B1.
     pub cyclic_forward_rad: Pair<f64>,
+    /// A1.
+    pub cyclic_outboard_rad: Pair<f64>,
     /// δe, trailing edge down.
     pub elevator_rad: f64,
     /// Beyond the flap's setting, down.
@@ -91,6 +97,8 @@ pub fn mix(
     let cyclic_rad = params.cyclic_per_longitudinal_stick_rad_per_m.at(tilt_rad) * forward_m;
     let yaw_rad =
         params.cyclic_per_pedal_rad_per_m.at(tilt_rad, sensed.airspeed_mps) * sticks.pedal_right_m;
+    let lateral_rad =
+        params.lateral_cyclic_norm.at(tilt_rad) * params.lateral_cyclic_rad.at(sensed.airspeed_mps);
     let aileron_rad = params.flaperon_per_lateral_stick_rad_per_m * sticks.right_m;
     let detent = pilot.flap_detent.min(FLAP_DETENT_LAST) as usize;
     let locked = sensed.weight_on_wheels
@@ -103,6 +111,7 @@ pub fn mix(
             right: collective_rad - differential_rad,
         },
         cyclic_forward_rad: Pair { left: cyclic_rad + yaw_rad, right: cyclic_rad - yaw_rad },
+        cyclic_outboard_rad: Pair::both(lateral_rad),
         elevator_rad: params.elevator_per_longitudinal_stick_rad_per_m * forward_m,
         flaperon_rad: Pair { left: aileron_rad, right: -aileron_rad },
         rudder_right_rad: params.rudder_per_pedal_rad_per_m * sticks.pedal_right_m,

@@ -1,0 +1,79 @@
+//! A test stand: one right rotor alone, settled.
+#![allow(dead_code, reason = "each test uses its part of the stand")]
+
+use engine::aero::Motion;
+use engine::frames::Vec3;
+use engine::math::{PI, square};
+use engine::rotors::{Inputs, Outputs, Params, State, rotor};
+
+const DEG: f64 = PI / 180.0;
+pub const DENSITY: f64 = engine::environment::DENSITY_SL_KG_PER_M3;
+
+/// Ticks until nothing changes any more: twelve seconds.
+const SETTLING: usize = 3_000;
+
+/// A rotor that has settled.
+pub struct Run {
+    pub inputs: Inputs,
+    pub state: State,
+    pub out: Outputs,
+    pub c_t: f64,
+    pub c_p: f64,
+}
+
+/// Far from the ground, at sea level.
+pub fn hovering(rpm: f64, collective_rad: f64) -> Inputs {
+    Inputs {
+        motion: Motion {
+            cg_m: Vec3::new(7.65, 0.0, 2.074),
+            airspeed_mps: Vec3::zero(),
+            angular_rate_radps: Vec3::zero(),
+            density_kg_per_m3: DENSITY,
+        },
+        sound_speed_mps: 340.294,
+        mast_tilt_rad: 0.0,
+        mast_tilt_rate_radps: 0.0,
+        rotor_speed_radps: rpm * PI / 30.0,
+        collective_rad,
+        cyclic_forward_rad: 0.0,
+        cyclic_outboard_rad: 0.0,
+        hub_height_m: 1e9,
+    }
+}
+
+/// The rotor under these inputs, moved every tick by `trim` to where it is wanted.
+pub fn trimmed(
+    params: &Params,
+    inputs: Inputs,
+    mut trim: impl FnMut(&mut Inputs, &Outputs),
+) -> Run {
+    let (blade, mut inputs) = (params.blade(), inputs);
+    let (mut state, mut out) = (State::default(), Outputs::default());
+    for _ in 0..SETTLING {
+        (state, out) = rotor(params, &blade, &state, &inputs);
+        trim(&mut inputs, &out);
+    }
+    let c_t = out.thrust_coefficient;
+    let tip_mps = inputs.rotor_speed_radps * params.radius_m;
+    let disc_n = inputs.motion.density_kg_per_m3 * params.disc_area_m2() * square(tip_mps);
+    Run { inputs, state, out, c_t, c_p: out.power_w / (disc_n * tip_mps) }
+}
+
+/// The rotor under these inputs.
+pub fn settled(params: &Params, inputs: Inputs) -> Run {
+    trimmed(params, inputs, |_, _| ())
+}
+
+/// The hover with this thrust coefficient, below the stall.
+pub fn hover_at(params: &Params, rpm: f64, c_t: f64) -> Run {
+    let (mut low, mut high) = (-5.0 * DEG, 17.0 * DEG);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if settled(params, hovering(rpm, middle)).c_t < c_t {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    settled(params, hovering(rpm, low))
+}

@@ -1,0 +1,123 @@
+//! The blade: where its elements are, how wide and how twisted.
+//!
+//! # Equations
+//! Gauss–Legendre within each of the four section regions, so that no section is smeared over a
+//! boundary:
+//! ```text
+//! ∫ f dr = Σ f(r_i)·w_i        3, 2, 2 and 1 stations from the root cut-out to the tip
+//! ```
+//! # Assumptions
+//! Lift ends at the fraction B of the radius, drag at the tip. The blade is straight; its twist is
+//! the geometric one.
+
+use serde::Deserialize;
+
+use super::section::{self, REGIONS, Region};
+use crate::math::{clamp, cos, sin};
+use crate::table::Table1;
+
+/// Elements along a blade.
+pub const STATIONS: usize = 8;
+
+const ROOT_3: f64 = 1.732_050_807_568_877_2;
+
+/// Region, and place and weight within it on −1..1: Gauss–Legendre of 3, 2, 2 and 1 points.
+const NODES: [(usize, f64, f64); STATIONS] = [
+    (0, -0.774_596_669_241_483_4, 5.0 / 9.0),
+    (0, 0.0, 8.0 / 9.0),
+    (0, 0.774_596_669_241_483_4, 5.0 / 9.0),
+    (1, -0.577_350_269_189_625_8, 1.0),
+    (1, 0.577_350_269_189_625_8, 1.0),
+    (2, -0.577_350_269_189_625_8, 1.0),
+    (2, 0.577_350_269_189_625_8, 1.0),
+    (3, 0.0, 2.0),
+];
+
+/// What a blade is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// b, blades of a rotor.
+    pub count: f64,
+    /// Where the blade begins, of the radius.
+    pub root_norm: f64,
+    /// B: where its lift ends, of the radius.
+    pub tip_loss_norm: f64,
+    /// c over the part of the radius.
+    pub blade_chord_m: Table1,
+    /// Built-in twist over the part of the radius, relative to ¾ of it.
+    pub twist_rad: Table1,
+    /// Sections.
+    pub section: section::Params,
+}
+
+impl Params {
+    /// Why the blade cannot be used, if so.
+    pub fn fault(&self) -> Option<&'static str> {
+        self.section
+            .fault()
+            .or_else(|| self.blade_chord_m.fault())
+            .or_else(|| self.twist_rad.fault())
+            .or_else(|| {
+                let ends = &self.section.lift_coefficient.x;
+                (self.root_norm >= ends[0]).then_some("the root within the innermost region")
+            })
+    }
+}
+
+/// An element of the blade.
+#[derive(Clone, Copy, Debug)]
+pub struct Station {
+    /// Its section.
+    pub region: usize,
+    /// r.
+    pub radius_m: f64,
+    /// c·w: the area it stands for.
+    pub area_m2: f64,
+    /// c.
+    pub chord_m: f64,
+    /// √3·c: with Ω/U, how much rotation holds off the stall, rooted.
+    pub turn_delay_m: f64,
+    /// Part of its area that lifts.
+    pub lifting: f64,
+    /// Part of the disc's area it stands for, 2r·w/R².
+    pub disc_norm: f64,
+    /// Sine of the twist.
+    pub sin_twist: f64,
+    /// Cosine of the twist.
+    pub cos_twist: f64,
+}
+
+/// A blade, ready to be moved through the air.
+#[derive(Clone, Copy, Debug)]
+pub struct Blade {
+    /// Elements, from the root.
+    pub stations: [Station; STATIONS],
+    /// Sections, from the root.
+    pub regions: [Region; REGIONS],
+}
+
+/// The blade of a rotor of that radius.
+pub fn blade(params: &Params, radius_m: f64) -> Blade {
+    let ends = &params.section.lift_coefficient.x;
+    let stations = NODES.map(|(region, at, weight)| {
+        let inner = if region > 0 { ends[region - 1] } else { params.root_norm };
+        let width = ends[region] - inner;
+        let x = inner + 0.5 * width * (1.0 + at);
+        let width_norm = 0.5 * width * weight;
+        let chord_m = params.blade_chord_m.at(x);
+        let twist_rad = params.twist_rad.at(x);
+        Station {
+            region,
+            radius_m: x * radius_m,
+            area_m2: chord_m * width_norm * radius_m,
+            chord_m,
+            turn_delay_m: ROOT_3 * chord_m,
+            lifting: clamp((params.tip_loss_norm - inner) / width, 0.0, 1.0),
+            disc_norm: 2.0 * x * width_norm,
+            sin_twist: sin(twist_rad),
+            cos_twist: cos(twist_rad),
+        }
+    });
+    Blade { stations, regions: params.section.regions(params.root_norm) }
+}

@@ -1,0 +1,210 @@
+//! Inflow: the air that the rotor moves, in three states and a radial shape.
+//!
+//! # Equations
+//! ```text
+//! R·M·v̇ + diag(V_T, V, V)·L0⁻¹·v = F/(ρA)      v = (v0, vs, vc)                      [PETERS]
+//! F = (T, Ms/R, Mc/R)              loads of the air on the disc; with sin ψ, with cos ψ
+//! M = diag(128/(75π), 64/(45π), 64/(45π))
+//! L0 = [1/2, 0, −bX; 0, 2(1 + X²), 0; bX, 0, 2(1 − X²)]        b = 15π/64, X = tan(χ/2)
+//! V_T = √(μ² + V_m²)     V = (μ² + (Vc + v0)(Vc + 2v0))/V_T, V_T ≤ V ≤ 2V_T
+//! V_m = |Vc + v0|, but v0·g(Vc/v0) where the rotor descends into its wake        [LEISHMAN]
+//! v(r, ψ) = G·(κ·(v0 + k·(v_r − v̄_r)) + r/R·(vc·cos ψ + vs·sin ψ))
+//! v_r·(|V| + v_r) = bcΩ·U·cl(r, v_r)/(8π)       annulus by annulus                     [GESSOW]
+//! v̄_r·(|V| + |v̄_r|) = mean over the disc of v_r·(|V| + |v_r|)
+//! k = V_m²/(V_m² + μ²)                              in edgewise flight the shape fades out
+//! G = 1 − (R/4z)²/(1 + (μ/V_m)²)                    ground                          [CHEESEMAN]
+//! ```
+//! # Signs
+//! Down the mast positive; Vc, the hub's speed along the thrust, positive in a climb. Aft of the
+//! wind means downwind: there the air that goes down is more.
+//! # Assumptions
+//! Pitt and Peters' states carry the mean and the first harmonics. How the mean spreads over the
+//! radius follows at once: a blade twisted for the aeroplane loads its root in hover, and annular
+//! momentum theory says by how much. The shape adds nothing to the mean momentum.
+//! Between hover and the windmill brake state, momentum theory has no answer or three; g is the
+//! measured mean. Its shape over Vc/v0 has one root for every thrust: there is no jump.
+
+use serde::{Deserialize, Serialize};
+
+use super::blade::{Blade, STATIONS};
+use super::elements::{Flow, Induced};
+use super::section::LIFT_SLOPE;
+use crate::STEP_S;
+use crate::math::{PI, clamp, max, min, sqrt, square};
+
+/// Apparent mass of the mean.
+const APPARENT_MASS: f64 = 128.0 / (75.0 * PI);
+/// Apparent inertia of the harmonics.
+const APPARENT_INERTIA: f64 = 64.0 / (45.0 * PI);
+/// b.
+const SKEW: f64 = 15.0 * PI / 64.0;
+/// Keeps still air from dividing by nothing, m/s.
+const STILL_MPS: f64 = 1e-6;
+
+/// How the rotor's inflow differs from the ideal.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// κ: losses that neither the radial shape nor the harmonics hold (swirl, contraction, tip).
+    pub induced_power_factor: f64,
+}
+
+/// Velocities in the disc.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// v0.
+    pub mean_mps: f64,
+    /// vc: more of it at the aft rim, as much less at the fore rim.
+    pub aft_mps: f64,
+    /// vs: more of it at the right rim.
+    pub right_mps: f64,
+}
+
+/// What the air feels of the rotor.
+#[derive(Clone, Copy, Debug)]
+pub struct Forcing {
+    /// T.
+    pub thrust_n: f64,
+    /// Mc: of the thrust aft of the hub.
+    pub aft_n_m: f64,
+    /// Ms: of the thrust right of the hub.
+    pub right_n_m: f64,
+}
+
+/// How the air passes through the disc.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage {
+    /// μ as a speed.
+    pub edgewise_mps: f64,
+    /// V_m.
+    pub through_mps: f64,
+    /// V_T.
+    pub total_mps: f64,
+    /// Whether the rotor descends into its own wake.
+    pub in_vortex_ring: bool,
+}
+
+/// (−Vc/v0, g): Leishman's fit to the measured mean, v0/vh = 1 − 1.125x − 1.372x² − 1.718x³ −
+/// 0.655x⁴ for −2 < x = Vc/vh < 0, as g = (vh/v0)² over Vc/v0. Ends meet momentum theory.
+const DESCENT: [(f64, f64); 10] = [
+    (0.0, 1.0),
+    (0.0909, 0.826),
+    (0.205, 0.672),
+    (0.359, 0.515),
+    (0.551, 0.303),
+    (0.720, 0.231),
+    (0.956, 0.298),
+    (1.326, 0.487),
+    (1.949, 0.949),
+    (2.0, 1.0),
+];
+
+fn descent(ratio: f64) -> f64 {
+    let i = DESCENT.iter().position(|&(end, _)| ratio <= end).unwrap_or(DESCENT.len() - 1).max(1);
+    let ((x0, y0), (x1, y1)) = (DESCENT[i - 1], DESCENT[i]);
+    y0 + (ratio - x0) * (y1 - y0) / (x1 - x0)
+}
+
+/// How the air passes through the disc.
+pub fn passage(state: &State, flow: &Flow) -> Passage {
+    let (v, climb_mps) = (state.mean_mps, flow.along_mps);
+    let edgewise_mps = sqrt(square(flow.forward_mps) + square(flow.right_mps));
+    // The wake is met when the rotor moves against what it induces, slower than twice that.
+    let meets = climb_mps * v < 0.0 && climb_mps.abs() < 2.0 * v.abs();
+    let ratio = if meets { -climb_mps / v } else { 0.0 };
+    let through_mps = if meets { v.abs() * descent(ratio) } else { (climb_mps + v).abs() };
+    Passage {
+        edgewise_mps,
+        through_mps,
+        total_mps: sqrt(square(edgewise_mps) + square(through_mps)),
+        in_vortex_ring: meets && (0.35..1.3).contains(&ratio) && edgewise_mps < v.abs(),
+    }
+}
+
+/// Velocities one tick later, implicitly: no speed of the flow is too fast for the step.
+pub fn advance(
+    state: &State,
+    passage: &Passage,
+    flow: &Flow,
+    forcing: &Forcing,
+    radius_m: f64,
+) -> State {
+    let Passage { edgewise_mps, through_mps, total_mps, .. } = *passage;
+    let x = edgewise_mps / (total_mps + through_mps + STILL_MPS);
+    // Downwind: aft in forward flight; anywhere, without wind.
+    let (c, s) = if edgewise_mps > STILL_MPS {
+        (flow.forward_mps / edgewise_mps, -flow.right_mps / edgewise_mps)
+    } else {
+        (1.0, 0.0)
+    };
+    let into_wind = |aft: f64, right: f64| (c * aft + s * right, c * right - s * aft);
+    let disc = flow.density_kg_per_m3 * PI * square(radius_m);
+    let f0 = forcing.thrust_n / disc;
+    let (fc, fs) =
+        into_wind(forcing.aft_n_m / (disc * radius_m), forcing.right_n_m / (disc * radius_m));
+    let (vc, vs) = into_wind(state.aft_mps, state.right_mps);
+    let v0 = state.mean_mps;
+
+    let squared = square(edgewise_mps) + (flow.along_mps + v0) * (flow.along_mps + 2.0 * v0);
+    let harmonic_mps = clamp(squared / (total_mps + STILL_MPS), total_mps, 2.0 * total_mps);
+    // (m/h + K)·v' = m/h·v + F, K = diag(V)·L0⁻¹.
+    let m0 = radius_m * APPARENT_MASS / STEP_S;
+    let m1 = radius_m * APPARENT_INERTIA / STEP_S;
+    let determinant = 1.0 - square(x) + square(SKEW * x);
+    let k00 = m0 + total_mps * 2.0 * (1.0 - square(x)) / determinant;
+    let k0c = total_mps * SKEW * x / determinant;
+    let kc0 = -harmonic_mps * SKEW * x / determinant;
+    let kcc = m1 + harmonic_mps * 0.5 / determinant;
+    let kss = m1 + harmonic_mps * 0.5 / (1.0 + square(x));
+    let (b0, bc, bs) = (m0 * v0 + f0, m1 * vc + fc, m1 * vs + fs);
+    let d = k00 * kcc - k0c * kc0;
+    let (mean_mps, vc, vs) = ((b0 * kcc - k0c * bc) / d, (k00 * bc - kc0 * b0) / d, bs / kss);
+    State { mean_mps, aft_mps: c * vc - s * vs, right_mps: s * vc + c * vs }
+}
+
+/// G.
+pub fn ground(passage: &Passage, height_m: f64, radius_m: f64) -> f64 {
+    let image = min(square(0.25 * radius_m / max(height_m, 0.3 * radius_m)), 0.5);
+    let (across, along) = (square(passage.edgewise_mps), square(passage.through_mps));
+    1.0 - image * along / (along + across + STILL_MPS)
+}
+
+/// What the elements meet.
+pub fn induced(
+    params: &Params,
+    state: &State,
+    passage: &Passage,
+    flow: &Flow,
+    blade: &Blade,
+    (collective, blades): ((f64, f64), f64),
+    (ground, radius_m): (f64, f64),
+) -> Induced {
+    let omega = flow.omega_radps;
+    let free_mps = sqrt(square(flow.along_mps) + square(passage.edgewise_mps));
+    let (sin_collective, cos_collective) = collective;
+    let mut annular = [0.0; STATIONS];
+    let mut momentum = 0.0;
+    for (v, station) in annular.iter_mut().zip(&blade.stations) {
+        let r = station.radius_m;
+        let u = sqrt(square(omega * r) + square(flow.along_mps)) + STILL_MPS;
+        let sin_pitch = sin_collective * station.cos_twist + cos_collective * station.sin_twist;
+        let cos_pitch = cos_collective * station.cos_twist - sin_collective * station.sin_twist;
+        let zero_lift = blade.regions[station.region].zero_lift_rad;
+        let sin_alpha = (sin_pitch * omega * r - cos_pitch * flow.along_mps) / u;
+        let pull = blades * station.chord_m * omega * LIFT_SLOPE / (8.0 * PI);
+        let forcing = pull * u * (sin_alpha - zero_lift);
+        let relief = free_mps + (pull * omega * r / u).abs() + STILL_MPS;
+        *v = 2.0 * forcing / (relief + sqrt(square(relief) + 4.0 * forcing.abs()));
+        momentum += station.disc_norm * *v * (free_mps + v.abs());
+    }
+    let root = sqrt(square(free_mps) + 4.0 * momentum.abs());
+    let mean = 2.0 * momentum / (free_mps + root + STILL_MPS);
+    let (across, along) = (square(passage.edgewise_mps), square(passage.through_mps));
+    let axial = along / (along + across + STILL_MPS);
+    let factor = ground * params.induced_power_factor;
+    Induced {
+        mean_mps: annular.map(|v| factor * (state.mean_mps + axial * (v - mean))),
+        aft_per_s: ground * state.aft_mps / radius_m,
+        right_per_s: ground * state.right_mps / radius_m,
+    }
+}

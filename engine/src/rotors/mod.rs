@@ -1,0 +1,301 @@
+//! Rotors: one gimballed proprotor, by blade elements, dynamic inflow and flapping blades.
+//!
+//! # Equations
+//! ```text
+//! elements:  forces and flapping moments from pitch, flap, inflow and the hub's motion
+//! inflow:    v̇ from thrust and flapping moments              three states         [PETERS]
+//! flapping:  β̈ from flapping moments, springs and gyration   gimbal and coning    [JOHNSON]
+//! ```
+//! Each in its file: [`section`], [`blade`], [`elements`], [`inflow`], [`flapping`]. The elements are
+//! evaluated once a tick; inflow and flapping take the tick implicitly, because the flapping's fast
+//! root (2Ω, 123 rad/s) is too fast for the rates of the plant. So the block gives its next state.
+//! ```text
+//! F = (Σ in the hub plane, −T)     M = K·tilt by gimbal and stop, Q about the mast
+//! ```
+//! # Signs
+//! Mast axes (x forward, y right, z down the mast); azimuth from aft. A1 and B1 tilt the disc right
+//! and forward. Written for the right rotor, which turns counter-clockwise seen from above; the left
+//! one is its mirror image.
+//! # Assumptions
+//! Steady between ticks; rigid in lag and torsion; no wake of one rotor on the other; the in-plane
+//! inertia of flapping blades averages out. A gimballed rotor does not pass its gyroscopic moment on:
+//! it precesses until the air turns it.
+
+pub mod blade;
+pub mod elements;
+pub mod flapping;
+pub mod inflow;
+pub mod section;
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+use crate::aero::Motion;
+use crate::frames::{Body, Load, Mast, Rotation, Structural, Vec3};
+use crate::math::{PI, cos, max, sin, square, tan};
+
+/// What a rotor is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// R.
+    pub radius_m: f64,
+    /// σ, thrust-weighted: for blade loadings only.
+    pub solidity: f64,
+    /// Polar inertia of rotor and hub.
+    pub polar_inertia_kg_m2: f64,
+    /// Conversion pivot of the right nacelle.
+    pub pivot_m: Vec3<Structural>,
+    /// Pivot to hub.
+    pub mast_length_m: f64,
+    /// Outboard cant of the mast as a helicopter.
+    pub mast_cant_rad: f64,
+    /// Blades.
+    pub blade: blade::Params,
+    /// Inflow.
+    pub inflow: inflow::Params,
+    /// Hub and flapping.
+    pub flapping: flapping::Params,
+}
+
+impl Params {
+    /// The blade's elements.
+    pub fn blade(&self) -> blade::Blade {
+        blade::blade(&self.blade, self.radius_m)
+    }
+
+    /// A.
+    pub fn disc_area_m2(&self) -> f64 {
+        PI * square(self.radius_m)
+    }
+
+    /// Unit vector of the right rotor's thrust.
+    pub fn thrust_axis(&self, mast_tilt_rad: f64) -> Vec3<Body> {
+        let cant_rad = self.mast_cant_rad * cos(mast_tilt_rad);
+        Vec3::new(
+            sin(mast_tilt_rad) * cos(cant_rad),
+            sin(cant_rad),
+            -cos(mast_tilt_rad) * cos(cant_rad),
+        )
+    }
+
+    /// Right hub, from the centre of gravity.
+    pub fn hub_from_cg(&self, cg_m: Vec3<Structural>, mast_tilt_rad: f64) -> Vec3<Body> {
+        self.pivot_m.from_cg(cg_m) + self.thrust_axis(mast_tilt_rad) * self.mast_length_m
+    }
+}
+
+/// What a rotor remembers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Air it moves.
+    pub inflow: inflow::State,
+    /// Tilt and coning.
+    pub flapping: flapping::State,
+}
+
+/// What a rotor reads, as the right rotor sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs {
+    /// How the aircraft moves through the air.
+    pub motion: Motion,
+    /// Speed of sound.
+    pub sound_speed_mps: f64,
+    /// βm.
+    pub mast_tilt_rad: f64,
+    /// How fast the nacelle tilts.
+    pub mast_tilt_rate_radps: f64,
+    /// Ω.
+    pub rotor_speed_radps: f64,
+    /// θ¾.
+    pub collective_rad: f64,
+    /// B1.
+    pub cyclic_forward_rad: f64,
+    /// A1, to the right: outboard.
+    pub cyclic_outboard_rad: f64,
+    /// Hub over the ground.
+    pub hub_height_m: f64,
+}
+
+/// What a rotor gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Outputs {
+    /// On the airframe, about the centre of gravity.
+    pub load: Load,
+    /// T, along the mast.
+    pub thrust_n: f64,
+    /// Q, needed at the mast.
+    pub torque_n_m: f64,
+    /// Q·Ω.
+    pub power_w: f64,
+    /// Mean induced velocity as the airframe meets it, against the thrust axis positive.
+    pub induced_mps: f64,
+    /// C_T = T/(ρA(ΩR)²); 0 at rest.
+    pub thrust_coefficient: f64,
+    /// C_T/σ.
+    pub blade_loading: f64,
+    /// μ.
+    pub advance_ratio: f64,
+    /// β0.
+    pub coning_rad: f64,
+    /// a1, tip path tilted aft of the hub plane.
+    pub tilt_aft_rad: f64,
+    /// b1, tip path tilted right (outboard).
+    pub tilt_outboard_rad: f64,
+    /// Part of the outer blades, once around, that is stalled.
+    pub stalled_norm: f64,
+    /// 1 when a tenth of that is.
+    pub stalled: u64,
+    /// 1 while the gimbal is on its stop.
+    pub on_stop: u64,
+    /// 1 while it descends into its own wake.
+    pub in_vortex_ring: u64,
+}
+
+/// The hub's motion, mast axes.
+struct Hub {
+    body_from_mast: Rotation<Body, Mast>,
+    arm_m: Vec3<Body>,
+    velocity_mps: Vec3<Mast>,
+    rate_radps: Vec3<Mast>,
+}
+
+impl Hub {
+    fn new(params: &Params, inputs: &Inputs) -> Self {
+        let axis = params.thrust_axis(inputs.mast_tilt_rad);
+        let forward = Vec3::<Body>::new(cos(inputs.mast_tilt_rad), 0.0, sin(inputs.mast_tilt_rad));
+        let body_from_mast: Rotation<Body, Mast> =
+            Rotation::from_axes(forward, (-axis).cross(forward), -axis);
+        let mast_from_body = body_from_mast.inverse();
+        let arm_m = params.hub_from_cg(inputs.motion.cg_m, inputs.mast_tilt_rad);
+        // Tilting forward is a nose-down turn of the nacelle about its pivot.
+        let nacelle_rate = Vec3::<Body>::new(0.0, -inputs.mast_tilt_rate_radps, 0.0);
+        let velocity =
+            inputs.motion.velocity_at(arm_m) + nacelle_rate.cross(axis * params.mast_length_m);
+        Self {
+            body_from_mast,
+            arm_m,
+            velocity_mps: mast_from_body * velocity,
+            rate_radps: mast_from_body * (inputs.motion.angular_rate_radps + nacelle_rate),
+        }
+    }
+}
+
+/// The rotor one tick later, and its loads now.
+///
+/// `blade` is the one of [`Params::blade`]: the same for both rotors, so it is made once.
+pub fn rotor(
+    params: &Params,
+    blade: &blade::Blade,
+    state: &State,
+    inputs: &Inputs,
+) -> (State, Outputs) {
+    let hub = Hub::new(params, inputs);
+    let flow = elements::Flow {
+        omega_radps: inputs.rotor_speed_radps - hub.rate_radps.z,
+        forward_mps: hub.velocity_mps.x,
+        right_mps: hub.velocity_mps.y,
+        along_mps: -hub.velocity_mps.z,
+        density_kg_per_m3: inputs.motion.density_kg_per_m3,
+        sound_speed_mps: inputs.sound_speed_mps,
+    };
+    let flap = &state.flapping;
+    let gimbal = flapping::gimbal(&params.flapping, flap);
+    let coupling = tan(params.flapping.delta3_rad);
+    let pitch = elements::Pitch {
+        collective_rad: inputs.collective_rad,
+        forward_rad: inputs.cyclic_forward_rad - coupling * gimbal.right_rad,
+        right_rad: inputs.cyclic_outboard_rad - coupling * gimbal.aft_rad,
+    };
+    let passage = inflow::passage(&state.inflow, &flow);
+    let ground = inflow::ground(&passage, inputs.hub_height_m, params.radius_m);
+    let induced = inflow::induced(
+        &params.inflow,
+        &state.inflow,
+        &passage,
+        &flow,
+        blade,
+        ((sin(inputs.collective_rad), cos(inputs.collective_rad)), params.blade.count),
+        (ground, params.radius_m),
+    );
+    let sums = elements::elements(blade, &flow, &pitch, flap, &induced);
+
+    let next = advance(params, state, &hub, &flow, &passage, &gimbal, &sums);
+    let outputs = outputs(params, state, inputs, &hub, &gimbal, &sums);
+    let outputs = Outputs {
+        induced_mps: ground * state.inflow.mean_mps,
+        in_vortex_ring: u64::from(passage.in_vortex_ring),
+        ..outputs
+    };
+    (next, outputs)
+}
+
+fn advance(
+    params: &Params,
+    state: &State,
+    hub: &Hub,
+    flow: &elements::Flow,
+    passage: &inflow::Passage,
+    gimbal: &flapping::Gimbal,
+    sums: &elements::Sums,
+) -> State {
+    let blades = params.blade.count;
+    let forcing = inflow::Forcing {
+        thrust_n: blades * sums.up_n,
+        aft_n_m: 0.5 * blades * sums.flap_cos_n_m,
+        right_n_m: 0.5 * blades * sums.flap_sin_n_m,
+    };
+    let flapping = flapping::Inputs {
+        omega_radps: flow.omega_radps,
+        hub_pitch_radps: hub.rate_radps.y,
+        hub_roll_radps: hub.rate_radps.x,
+        flap_n_m: sums.flap_n_m,
+        flap_cos_n_m: sums.flap_cos_n_m,
+        flap_sin_n_m: sums.flap_sin_n_m,
+        damping_n_m_s: sums.damping_n_m_s,
+    };
+    State {
+        inflow: inflow::advance(&state.inflow, passage, flow, &forcing, params.radius_m),
+        flapping: flapping::advance(&params.flapping, &state.flapping, gimbal, &flapping),
+    }
+}
+
+/// Loads and what can be observed, but for the inflow.
+fn outputs(
+    params: &Params,
+    state: &State,
+    inputs: &Inputs,
+    hub: &Hub,
+    gimbal: &flapping::Gimbal,
+    sums: &elements::Sums,
+) -> Outputs {
+    let blades = params.blade.count;
+    let (thrust_n, torque_n_m) = (blades * sums.up_n, blades * sums.torque_n_m);
+    let force = Vec3::<Mast>::new(blades * sums.forward_n, blades * sums.right_n, -thrust_n);
+    // The right rotor turns counter-clockwise: the air drags it, and the mast the airframe, the
+    // other way round, which is positive about z, down the mast.
+    let moment = Vec3::<Mast>::new(gimbal.rolling_n_m, gimbal.pitching_n_m, torque_n_m);
+    let load =
+        Load::at(hub.body_from_mast * force, hub.arm_m).with_moment(hub.body_from_mast * moment);
+    let tip_mps = max(inputs.rotor_speed_radps * params.radius_m, 1.0);
+    let pressure_pa = inputs.motion.density_kg_per_m3 * square(tip_mps);
+    let thrust_coefficient = thrust_n / (pressure_pa * params.disc_area_m2());
+    let in_plane = square(hub.velocity_mps.x) + square(hub.velocity_mps.y);
+    Outputs {
+        load,
+        thrust_n,
+        torque_n_m,
+        power_w: torque_n_m * inputs.rotor_speed_radps,
+        thrust_coefficient,
+        blade_loading: thrust_coefficient / params.solidity,
+        advance_ratio: crate::math::sqrt(in_plane) / tip_mps,
+        coning_rad: state.flapping.coning_rad,
+        tilt_aft_rad: state.flapping.aft_rad,
+        tilt_outboard_rad: state.flapping.right_rad,
+        stalled_norm: sums.stalled_norm,
+        stalled: u64::from(sums.stalled_norm > 0.1),
+        on_stop: u64::from(gimbal.on_stop),
+        ..Outputs::default()
+    }
+}

@@ -1,0 +1,215 @@
+//! Blade sections: lift and drag at any angle and subsonic Mach number.
+//!
+//! # Equations
+//! ```text
+//! cl, cd = tables(α'),   α' = α0 + (α − α0)·√(1 − M_t²)/√(1 − M²)     −6° < α < 12°     [TP04]
+//! cl = 2·sin α·cos α,  cd = 0.01 + 1.9·sin²α                          flat plate
+//! cl += 3·(c/r)²·(Ωr/U)²·(a·(sin α − sin α0) − cl)     rotation holds off the stall  [SNEL]
+//! cd += d(M) − d(M_t),  d = 20·(M − M_cr)⁴ above M_cr,  M_cr = κ_A − t/c − cl/10 − .108   [KORN]
+//! ```
+//! Between −6° and −20°, and between 12° and 30°, the table fades into the plate; what rotation adds
+//! fades out between 30° and 50°.
+//! # Signs
+//! α from zero at the chord, leading edge up positive; lift and drag across and along the flow.
+//! # Assumptions
+//! The tables hold at one Mach number M_t a region: Prandtl–Glauert carries their slope, not their
+//! greatest lift, to others. No unsteady stall, no Reynolds number.
+
+use serde::Deserialize;
+
+use crate::math::{clamp, max, min, sqrt, square};
+use crate::table::{Table1, Table2};
+
+/// Angles of a table, at most.
+const ANGLES_MAX: usize = 16;
+/// Regions of the blade with a section of their own.
+pub const REGIONS: usize = 4;
+
+/// From the drag divergence of Korn's rule down to where the drag begins to rise: (0.1/80)^(1/3).
+const DIVERGENCE: f64 = 0.107_7;
+/// Beyond it Prandtl–Glauert would grow without bound.
+const MACH2_MAX: f64 = 0.64;
+
+/// What the sections are.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// cl by the region's outer end and α in equal steps.
+    pub lift_coefficient: Table2,
+    /// cd, alike.
+    pub drag_coefficient: Table2,
+    /// t/c by the region's outer end.
+    pub thickness_norm: Table1,
+    /// M at the tip when the tables hold: M_t is that of the region's middle.
+    pub table_tip_mach: f64,
+    /// κ_A.
+    pub korn_factor: f64,
+}
+
+impl Params {
+    /// Why the sections cannot be used, if so.
+    pub fn fault(&self) -> Option<&'static str> {
+        let (lift, drag) = (&self.lift_coefficient, &self.drag_coefficient);
+        let thickness = &self.thickness_norm;
+        lift.fault().or_else(|| drag.fault()).or_else(|| thickness.fault()).or_else(|| {
+            let step = lift.y[1] - lift.y[0];
+            let even = lift.y.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step);
+            let known = lift.y.iter().skip(self.drag_offset());
+            let same = drag.y.len() <= known.len()
+                && drag.y.iter().zip(known).all(|(a, b)| (a - b).abs() < 1e-9);
+            if lift.x.len() != REGIONS || drag.x != lift.x || thickness.x != lift.x {
+                Some("the same four regions in lift, drag and thickness")
+            } else if !even || lift.y.len() > ANGLES_MAX {
+                Some("sixteen angles at most, in equal steps")
+            } else if !same {
+                Some("angles of the drag among those of the lift")
+            } else {
+                None
+            }
+        })
+    }
+
+    /// The sections, ready to be asked.
+    pub fn regions(&self, root_norm: f64) -> [Region; REGIONS] {
+        let (lift, drag) = (&self.lift_coefficient, &self.drag_coefficient);
+        let step = lift.y[1] - lift.y[0];
+        let last = lift.y.len() - 1;
+        // The drag's angles are some of the lift's: the row below or beyond them goes on in its line.
+        let first = self.drag_offset();
+        core::array::from_fn(|i| {
+            let row = &drag.z[i];
+            let drag_at = |j: usize| {
+                let k = j.saturating_sub(first).min(row.len() - 2);
+                row[k] + (j as f64 - (first + k) as f64) * (row[k + 1] - row[k])
+            };
+            let mut points = [(0.0, 0.0); ANGLES_MAX];
+            for (j, point) in points.iter_mut().enumerate().take(last + 1) {
+                *point = (lift.z[i][j], drag_at(j));
+            }
+            let inner = if i > 0 { lift.x[i - 1] } else { root_norm };
+            let mach = self.table_tip_mach * 0.5 * (inner + lift.x[i]);
+            Region {
+                points,
+                from_rad: lift.y[0],
+                to_rad: lift.y[last],
+                per_step: 1.0 / step,
+                cell_max: last as f64 - 1.0,
+                zero_lift_rad: lift.y[0] + step * root(&lift.z[i]),
+                table_mach: mach,
+                table_beta: sqrt(1.0 - square(mach)),
+                rise_mach: self.korn_factor - self.thickness_norm.y[i] - DIVERGENCE,
+            }
+        })
+    }
+
+    /// Where among the lift's angles the drag's begin.
+    fn drag_offset(&self) -> usize {
+        let (lift, drag) = (&self.lift_coefficient.y, &self.drag_coefficient.y);
+        lift.iter().position(|angle| (angle - drag[0]).abs() < 1e-9).unwrap_or(0)
+    }
+}
+
+/// Where a rising row passes through zero, in steps.
+fn root(row: &[f64]) -> f64 {
+    let i = row.windows(2).position(|pair| pair[1] > 0.0).unwrap_or(0);
+    i as f64 - row[i] / (row[i + 1] - row[i])
+}
+
+/// The section of one region of the blade.
+#[derive(Clone, Copy, Debug)]
+pub struct Region {
+    /// cl, cd in equal steps of α.
+    points: [(f64, f64); ANGLES_MAX],
+    from_rad: f64,
+    to_rad: f64,
+    per_step: f64,
+    cell_max: f64,
+    /// α0.
+    pub zero_lift_rad: f64,
+    /// M_t.
+    table_mach: f64,
+    /// √(1 − M_t²).
+    table_beta: f64,
+    /// M_cr without lift.
+    rise_mach: f64,
+}
+
+/// What a section does.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients {
+    /// cl.
+    pub lift: f64,
+    /// cd.
+    pub drag: f64,
+    /// 0 on the table, 1 on the flat plate.
+    pub stalled: f64,
+}
+
+// sin 12°, sin 30°, sin 6°, sin 20°: where the table ends and where the plate begins.
+const STALL: f64 = 0.207_911_690_817_759_3;
+const PLATE: f64 = 0.5;
+const STALL_BELOW: f64 = 0.104_528_463_267_653_5;
+const PLATE_BELOW: f64 = 0.342_020_143_325_668_7;
+/// sin 50°: where rotation has lost its hold.
+const DELAY_END: f64 = 0.766_044_443_118_978;
+/// The correlation is of chords up to 0.4 of the radius at hand.
+const DELAY_MAX: f64 = 0.5;
+/// a: lift slope that stands for all sections where the tables do not say, per rad.
+pub const LIFT_SLOPE: f64 = 5.7;
+
+impl Region {
+    /// Coefficients at the angle of attack with this sine and cosine; `delay` is 3·(c/r)²·(Ωr/U)².
+    #[inline]
+    pub fn coefficients(
+        &self,
+        (sin_alpha, cos_alpha): (f64, f64),
+        mach: f64,
+        delay: f64,
+    ) -> Coefficients {
+        let s = sin_alpha;
+        let beyond = if s > 0.0 {
+            (s - STALL) * (1.0 / (PLATE - STALL))
+        } else {
+            (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW))
+        };
+        let stalled = if cos_alpha > 0.0 { clamp(beyond, 0.0, 1.0) } else { 1.0 };
+        let (mut lift, mut drag) = (2.0 * s * cos_alpha, 0.01 + 1.9 * s * s);
+        if stalled < 1.0 {
+            // The arc sine by its series: to 1e-6 rad where the table ends, 5e-4 where the plate begins.
+            let s2 = s * s;
+            let alpha = s * (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0)));
+            let slope = self.table_beta / sqrt(1.0 - min(square(mach), MACH2_MAX));
+            let scaled = self.zero_lift_rad + (alpha - self.zero_lift_rad) * slope;
+            let (table_lift, table_drag) = self.table(scaled);
+            lift = table_lift + stalled * (lift - table_lift);
+            drag = table_drag + stalled * (drag - table_drag);
+        }
+        if s > 0.0 && s < DELAY_END && cos_alpha > 0.0 {
+            let potential = LIFT_SLOPE * (s - self.zero_lift_rad);
+            let fade = min((DELAY_END - s) * (1.0 / (DELAY_END - PLATE)), 1.0);
+            lift += fade * min(delay, DELAY_MAX) * max(potential - lift, 0.0);
+        }
+        let rise_mach = self.rise_mach - 0.1 * lift.abs();
+        if mach > rise_mach {
+            drag += max(rise(mach - rise_mach) - rise(self.table_mach - rise_mach), 0.0);
+        }
+        Coefficients { lift, drag, stalled }
+    }
+}
+
+impl Region {
+    /// cl and cd: linear between the points and below them, held above.
+    fn table(&self, alpha_rad: f64) -> (f64, f64) {
+        let steps = (min(alpha_rad, self.to_rad) - self.from_rad) * self.per_step;
+        let cell = clamp(steps, 0.0, self.cell_max) as u32;
+        let at = steps - f64::from(cell);
+        let i = cell as usize % (ANGLES_MAX - 1);
+        let ((l0, d0), (l1, d1)) = (self.points[i], self.points[i + 1]);
+        (l0 + at * (l1 - l0), max(d0 + at * (d1 - d0), 0.0))
+    }
+}
+
+/// d; held where the fourth power has no meaning any more.
+fn rise(beyond: f64) -> f64 {
+    20.0 * square(square(clamp(beyond, 0.0, 0.3)))
+}

@@ -1,0 +1,300 @@
+use alloc::vec;
+
+use super::*;
+use crate::math::{FRAC_PI_2, sqrt};
+use crate::table::{Table1, Table2};
+
+const DEG: f64 = PI / 180.0;
+const DENSITY: f64 = 1.225;
+const OMEGA: f64 = 61.68;
+
+/// A rotor for which theory has answers: straight lift, no drag, free gimbal without precone.
+fn ideal() -> Params {
+    let ends = vec![0.55, 0.80, 0.95, 1.0];
+    let angles: vec::Vec<f64> = (-3..=6).map(|i| f64::from(2 * i) * DEG).collect();
+    let lift = angles.iter().map(|angle| 5.7 * angle).collect::<vec::Vec<_>>();
+    Params {
+        radius_m: 3.81,
+        solidity: 0.089,
+        polar_inertia_kg_m2: 420.0,
+        pivot_m: Vec3::new(7.62, 4.902, 2.54),
+        mast_length_m: 1.4225,
+        mast_cant_rad: 0.0,
+        blade: blade::Params {
+            count: 3.0,
+            root_norm: 0.0875,
+            tip_loss_norm: 1.0,
+            blade_chord_m: Table1 { x: vec![0.0, 1.0], y: vec![0.3556; 2] },
+            twist_rad: Table1 { x: vec![0.0, 1.0], y: vec![15.0 * DEG, -5.0 * DEG] },
+            section: section::Params {
+                lift_coefficient: Table2 {
+                    x: ends.clone(),
+                    y: angles.clone(),
+                    z: vec![lift; section::REGIONS],
+                },
+                drag_coefficient: Table2 {
+                    x: ends.clone(),
+                    y: angles,
+                    z: vec![vec![0.0; 10]; section::REGIONS],
+                },
+                thickness_norm: Table1 { x: ends, y: vec![0.1; section::REGIONS] },
+                table_tip_mach: 0.0,
+                korn_factor: 9.0,
+            },
+        },
+        inflow: inflow::Params { induced_power_factor: 1.0 },
+        flapping: flapping::Params {
+            blade_inertia_kg_m2: 139.0,
+            blade_spring_n_m_per_rad: 773e3,
+            precone_rad: 0.0,
+            hub_spring_n_m_per_rad: 0.0,
+            flapping_rad_max: 0.2,
+            delta3_rad: 0.0,
+        },
+    }
+}
+
+fn hovering(collective_rad: f64) -> Inputs {
+    Inputs {
+        motion: Motion {
+            cg_m: Vec3::new(7.62, 0.0, 2.54),
+            airspeed_mps: Vec3::zero(),
+            angular_rate_radps: Vec3::zero(),
+            density_kg_per_m3: DENSITY,
+        },
+        sound_speed_mps: 1e6,
+        mast_tilt_rad: 0.0,
+        mast_tilt_rate_radps: 0.0,
+        rotor_speed_radps: OMEGA,
+        collective_rad,
+        cyclic_forward_rad: 0.0,
+        cyclic_outboard_rad: 0.0,
+        hub_height_m: 1e9,
+    }
+}
+
+fn after(params: &Params, state: State, inputs: &Inputs, ticks: u32) -> (State, Outputs) {
+    let blade = params.blade();
+    let state = (0..ticks).fold(state, |state, _| rotor(params, &blade, &state, inputs).0);
+    (state, rotor(params, &blade, &state, inputs).1)
+}
+
+fn settled(params: &Params, inputs: &Inputs) -> (State, Outputs) {
+    after(params, State::default(), inputs, 4_000)
+}
+
+#[test]
+fn a_steady_rotor_is_steady() {
+    let params = ideal();
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.motion.airspeed_mps = Vec3::new(30.0, 3.0, 2.0);
+    let (state, _) = settled(&params, &inputs);
+    let (next, _) = rotor(&params, &params.blade(), &state, &inputs);
+    assert!((next.inflow.mean_mps - state.inflow.mean_mps).abs() < 1e-12);
+    assert!((next.flapping.aft_rad - state.flapping.aft_rad).abs() < 1e-14);
+    assert!((next.flapping.coning_rad - state.flapping.coning_rad).abs() < 1e-14);
+}
+
+#[test]
+fn a_hovering_rotor_moves_the_air_of_momentum_theory() {
+    let params = ideal();
+    let (state, out) = settled(&params, &hovering(8.0 * DEG));
+    let ideal_mps = sqrt(out.thrust_n / (2.0 * DENSITY * params.disc_area_m2()));
+    assert!((state.inflow.mean_mps / ideal_mps - 1.0).abs() < 1e-9);
+}
+
+/// Without drag all power is induced: never less than the ideal, and little more where the twist
+/// suits the thrust.
+#[test]
+fn no_rotor_beats_momentum_theory() {
+    let params = ideal();
+    let over = [4.0, 8.0, 12.0].map(|collective_deg| {
+        let (state, out) = settled(&params, &hovering(collective_deg * DEG));
+        out.power_w / (out.thrust_n * state.inflow.mean_mps)
+    });
+    assert!(over.iter().all(|over| *over > 1.0), "{over:?}");
+    assert!(over.is_sorted_by(|less, more| less > more) && over[2] < 1.1, "{over:?}");
+}
+
+/// In forward flight Glauert's: v = T/(2ρA·√(μ² + λ²)).
+#[test]
+fn edgewise_the_inflow_is_glauerts() {
+    let params = ideal();
+    let mut inputs = hovering(6.0 * DEG);
+    inputs.motion.airspeed_mps.x = 40.0;
+    let (state, out) = settled(&params, &inputs);
+    let v = state.inflow.mean_mps;
+    let glauert =
+        out.thrust_n / (2.0 * DENSITY * params.disc_area_m2() * sqrt(square(40.0) + square(v)));
+    // The skewed wake couples the mean with the harmonics, which a free disc holds near zero load.
+    assert!((v / glauert - 1.0).abs() < 0.02, "{v} {glauert}");
+    assert!(state.inflow.aft_mps > 0.8 * v, "downwash grows downwind");
+}
+
+/// Where the flow comes steeply, near the root, a degree of tilt is less than one of incidence.
+const LARGE_ANGLES: f64 = 0.05;
+
+/// Pitch is least where the blade passes the right; the blade is lowest a quarter turn later.
+#[test]
+fn cyclic_tilts_the_disc_a_quarter_turn_late() {
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.cyclic_forward_rad = 0.05;
+    let (_, out) = settled(&ideal(), &inputs);
+    assert!((out.tilt_aft_rad / -0.05 - 1.0).abs() < LARGE_ANGLES, "{}", out.tilt_aft_rad);
+    assert!(out.tilt_outboard_rad.abs() < 1e-3, "{}", out.tilt_outboard_rad);
+    assert!((out.load.force_n.x / out.thrust_n - 0.05).abs() < 0.01);
+    inputs.cyclic_forward_rad = 0.0;
+    inputs.cyclic_outboard_rad = 0.05;
+    let (_, out) = settled(&ideal(), &inputs);
+    assert!((out.tilt_outboard_rad / 0.05 - 1.0).abs() < LARGE_ANGLES);
+    assert!(out.tilt_aft_rad.abs() < 1e-3);
+    assert!(out.load.force_n.y > 0.0);
+}
+
+/// Nothing turns a free gyroscope: the mast rolls under the disc.
+#[test]
+fn in_a_vacuum_the_disc_stays_where_it_was() {
+    let mut inputs = hovering(0.0);
+    inputs.motion.density_kg_per_m3 = 1e-9;
+    inputs.motion.angular_rate_radps = Vec3::new(0.1, 0.05, 0.0);
+    let (_, out) = after(&ideal(), State::default(), &inputs, 250);
+    assert!((out.tilt_outboard_rad + 0.1).abs() < 1e-6, "{}", out.tilt_outboard_rad);
+    assert!((out.tilt_aft_rad + 0.05).abs() < 1e-6, "{}", out.tilt_aft_rad);
+}
+
+/// 16/(γ*Ω) behind a pitching mast: the air that the load on the disc moves makes the Lock number
+/// smaller by 1 + aσ/(16·λ0) in hover (Curtiss).
+#[test]
+fn the_disc_lags_a_turning_mast() {
+    let params = ideal();
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.motion.angular_rate_radps.y = 0.2;
+    let (state, out) = settled(&params, &inputs);
+    let lock = DENSITY * 5.7 * 0.3556 * square(square(3.81)) / 139.0;
+    let lambda = state.inflow.mean_mps / (OMEGA * params.radius_m);
+    let lessened = lock / (1.0 + 5.7 * 0.0891 / (16.0 * lambda));
+    let expected = -16.0 / (lessened * OMEGA) * 0.2;
+    assert!((out.tilt_aft_rad / expected - 1.0).abs() < 0.1, "{} {expected}", out.tilt_aft_rad);
+    assert!(out.tilt_outboard_rad < 0.0);
+}
+
+#[test]
+fn a_gimbal_on_its_stop_gives_way_only_by_bending() {
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.cyclic_forward_rad = 0.3;
+    let (_, out) = settled(&ideal(), &inputs);
+    assert_eq!(out.on_stop, 1);
+    let tilt_rad = sqrt(square(out.tilt_aft_rad) + square(out.tilt_outboard_rad));
+    assert!((0.2..0.25).contains(&tilt_rad) && out.tilt_aft_rad < -0.15, "{tilt_rad}");
+}
+
+#[test]
+fn the_right_rotor_drags_the_nose_to_the_right() {
+    let (_, out) = settled(&ideal(), &hovering(8.0 * DEG));
+    assert!((out.load.moment_n_m.z / out.torque_n_m - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn as_an_aeroplane_the_thrust_points_forward() {
+    let mut inputs = hovering(40.0 * DEG);
+    inputs.mast_tilt_rad = FRAC_PI_2;
+    inputs.motion.airspeed_mps.x = 100.0;
+    let (_, out) = settled(&ideal(), &inputs);
+    assert!(out.thrust_n > 0.0 && (out.load.force_n.x / out.thrust_n - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn air_from_below_drives_the_rotor() {
+    let mut inputs = hovering(2.0 * DEG);
+    inputs.motion.airspeed_mps = Vec3::new(40.0, 0.0, 15.0);
+    let (_, out) = settled(&ideal(), &inputs);
+    assert!(out.thrust_n > 0.0 && out.torque_n_m < 0.0, "{} N m", out.torque_n_m);
+}
+
+/// From hover into the windmill state the thrust has no jump, whichever way one goes.
+#[test]
+fn a_vertical_descent_has_no_jump() {
+    let params = ideal();
+    let blade = params.blade();
+    let mut inputs = hovering(8.0 * DEG);
+    let (mut state, _) = settled(&params, &inputs);
+    let sweep = |state: &mut State, inputs: &mut Inputs, sinks: &[f64]| {
+        let mut worst = 0.0;
+        let mut before = rotor(&params, &blade, state, inputs).1.thrust_n;
+        for sink_mps in sinks {
+            inputs.motion.airspeed_mps.z = *sink_mps;
+            *state = after(&params, *state, inputs, 500).0;
+            let now = rotor(&params, &blade, state, inputs).1.thrust_n;
+            worst = max(worst, (now - before).abs() / now.abs());
+            before = now;
+        }
+        (worst, before)
+    };
+    let down: vec::Vec<f64> = (0..=120).map(|i| 0.5 * f64::from(i)).collect();
+    let half: vec::Vec<f64> = down.iter().copied().take(61).collect();
+    let up: vec::Vec<f64> = down[60..].iter().rev().copied().collect();
+    let (_, thrust_down) = sweep(&mut state, &mut inputs, &half);
+    let (worst, _) = sweep(&mut state, &mut inputs, &down[60..]);
+    let (_, thrust_up) = sweep(&mut state, &mut inputs, &up);
+    assert!(worst < 0.1, "{worst}");
+    assert!((thrust_up / thrust_down - 1.0).abs() < 1e-3, "{thrust_up} {thrust_down}");
+}
+
+#[test]
+fn the_ground_saves_power() {
+    let params = ideal();
+    let far = settled(&params, &hovering(8.0 * DEG)).1;
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.hub_height_m = 0.6 * params.radius_m;
+    let near = settled(&params, &inputs).1;
+    assert!(near.thrust_n > far.thrust_n);
+    assert!(near.power_w / near.thrust_n < far.power_w / far.thrust_n);
+}
+
+/// A number from −1 to 1.
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+/// Anything that can happen to a rotor, for half a second each.
+#[test]
+fn no_flight_makes_it_infinite() {
+    let params = ideal();
+    let blade = params.blade();
+    let mut seed = 1;
+    let mut state = State::default();
+    for case in 0..3_000 {
+        let mut r = |size: f64| size * random(&mut seed);
+        let still = case % 7 == 0;
+        let inputs = Inputs {
+            motion: Motion {
+                cg_m: Vec3::new(7.62, 0.0, 2.54),
+                airspeed_mps: if still {
+                    Vec3::zero()
+                } else {
+                    Vec3::new(60.0 + r(100.0), r(100.0), r(100.0))
+                },
+                angular_rate_radps: Vec3::new(r(3.0), r(3.0), r(3.0)),
+                density_kg_per_m3: 0.9 + r(0.6),
+            },
+            sound_speed_mps: 330.0,
+            mast_tilt_rad: 0.8 + r(0.9),
+            mast_tilt_rate_radps: r(0.2),
+            rotor_speed_radps: if case % 5 == 0 { 0.0 } else { 36.65 + r(36.65) },
+            collective_rad: (30.0 + r(40.0)) * DEG,
+            cyclic_forward_rad: r(0.18),
+            cyclic_outboard_rad: r(0.1),
+            hub_height_m: 20.0 + r(20.0),
+        };
+        for _ in 0..125 {
+            let (next, out) = rotor(&params, &blade, &state, &inputs);
+            let load = out.load.force_n.norm() + out.load.moment_n_m.norm() + out.power_w;
+            assert!(load.is_finite() && load.abs() < 1e9, "case {case}: {inputs:?}");
+            let flap = next.flapping;
+            assert!(flap.aft_rad.abs() + flap.right_rad.abs() + flap.coning_rad.abs() < 3.0);
+            assert!(next.inflow.mean_mps.abs() + next.inflow.aft_mps.abs() < 500.0, "{next:?}");
+            state = next;
+        }
+    }
+}
