@@ -467,9 +467,7 @@ impl<'a> Problem<'a> {
             let slow = -0.2 * target.airspeed_mps;
             outer[CLIMB] = if lever > 0.5 { 0.0 } else { slow };
         }
-        let mut state = self.state(&outer, None);
-        state.plant.rotors.right.induced_mps = 10.0 * cos(target.mast_tilt_rad) + 1.0;
-        state.plant.rotors.left.induced_mps = state.plant.rotors.right.induced_mps;
+        let state = self.state(&outer, None);
         self.settled(&outer, state)
     }
 
