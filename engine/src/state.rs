@@ -223,7 +223,7 @@ impl State {
     }
 
     /// The names of the numbers, in the same order, with the parts that they are in:
-    /// `plant.rotors.left.inflow.mean_mps`.
+    /// `plant.engines.left.power_w`.
     pub fn number_names(&self) -> alloc::vec::Vec<String> {
         let mut names = alloc::vec::Vec::new();
         self.names("", &mut |name| names.push(name));
@@ -248,13 +248,13 @@ mod tests {
         let names = state.number_names();
         let mut count = 0;
         state.each_number(|number| {
-            if names[count] == "plant.rotors.right.inflow.mean_mps" {
+            if names[count] == "plant.engines.right.power_w" {
                 *number = 7.0;
             }
             count += 1;
         });
         assert_eq!(count, names.len());
-        assert_eq!(state.plant.rotors.right.inflow.mean_mps.to_bits(), 7.0f64.to_bits());
+        assert_eq!(state.plant.engines.right.power_w.to_bits(), 7.0f64.to_bits());
     }
 
     #[test]

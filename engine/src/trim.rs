@@ -467,9 +467,7 @@ impl<'a> Problem<'a> {
             let slow = -0.2 * target.airspeed_mps;
             outer[CLIMB] = if lever > 0.5 { 0.0 } else { slow };
         }
-        let mut state = self.state(&outer, None);
-        state.plant.rotors.right.inflow.mean_mps = 10.0 * cos(target.mast_tilt_rad) + 1.0;
-        state.plant.rotors.left.inflow.mean_mps = state.plant.rotors.right.inflow.mean_mps;
+        let state = self.state(&outer, None);
         self.settled(&outer, state)
     }
 
@@ -569,7 +567,7 @@ impl<'a> Problem<'a> {
     fn set_controls(&self, state: &mut State, collective_rad: f64) {
         let (aircraft, pilot) = (self.aircraft, state.cockpit);
         let travel = &aircraft.fcc.travel;
-        let sensed = step::sensed(state, &self.target.world);
+        let sensed = step::sense(state, &self.target.world);
         let sticks = scas::Sticks {
             aft_m: pilot.stick_aft_norm * travel.longitudinal_stick_m,
             right_m: pilot.stick_right_norm * travel.lateral_stick_m,

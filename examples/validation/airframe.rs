@@ -63,8 +63,6 @@ fn held(aircraft: &Aircraft, printed: &Printed) -> Outputs {
     plant.velocity_mps = plant.attitude.ned_from_body() * velocity;
     plant.rotor_speed_radps = aircraft.fcc.governor.rotor_speed_radps[0];
     plant.fuel_kg = 669.0;
-    plant.rotors.left.inflow.mean_mps = 10.0;
-    plant.rotors.right.inflow.mean_mps = 10.0;
     state.actuators.cyclic_forward_rad = Pair::both(printed.cyclic_deg / DEG);
     state.actuators.elevator_rad = printed.elevator_deg / DEG;
     state.actuators.flap_rad = aircraft.fcc.mixer.flap_rad[2];

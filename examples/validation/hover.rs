@@ -31,8 +31,6 @@ fn on_stand(aircraft: &Aircraft, tip_mps: f64, collective_deg: f64) -> Stand {
     let world = World { ground_height_m: GROUND_FAR_BELOW_M, ..World::default() };
     let mut state = State::default();
     state.plant.rotor_speed_radps = tip_mps / aircraft.rotors.radius_m;
-    state.plant.rotors.left.inflow.mean_mps = 10.0;
-    state.plant.rotors.right.inflow.mean_mps = 10.0;
     state.actuators.collective_rad = Pair::both(collective_deg / DEG);
     let settled = settle(aircraft, &state, &world, STAND_TICKS);
     let (_, outputs) = engine::step::heading(aircraft, &settled, &world);

@@ -46,7 +46,7 @@ pub fn aloft(parked: &State, mast_tilt_rad: f64, speed_mps: f64) -> State {
     state.fcc.governor.integral_rad = collective_rad - 5.0 * cos(mast_tilt_rad) * 1.6 * DEG;
     state.fcc.governor.correction_rad = state.fcc.governor.integral_rad;
     state.plant.rotors = state.plant.rotors.map(|mut rotor| {
-        rotor.induced_mps = 5.0;
+        rotor.inflow.mean_mps = 5.0;
         rotor
     });
     state.plant.engines = Pair::both(engine::engines::State { power_w: 5e5 });
@@ -217,8 +217,8 @@ pub fn step_in_the_mirror(xv15: &Aircraft, state: &State, inputs: &Inputs) -> St
 
 /// Takes the air away: no block but gravity, ground and inertia has anything to say.
 pub fn in_vacuum(xv15: &mut Aircraft) {
-    xv15.rotors.solidity = 0.0;
-    xv15.rotors.hub_spring_n_m_per_rad = 0.0;
+    xv15.rotors.blade.blade_chord_m.y.fill(0.0);
+    xv15.rotors.flapping.hub_spring_n_m_per_rad = 0.0;
     xv15.wing_pylon.area_m2 = 0.0;
     xv15.wing_pylon.immersed_area_m2_max = 0.0;
     xv15.wing_pylon.interference_m2.y.fill(0.0);
