@@ -84,46 +84,46 @@ fn the_aircraft_s_own_file_given_by_hand_flies() {
 
 #[test]
 fn an_unknown_key_of_the_aircraft_is_named_with_its_line_and_the_known_ones() {
-    refused_xv15("key", "lock_number", "lock_nunber")
-        .says("rotors.lock_nunber: unknown key; expected one of ")
-        .says("lock_number");
+    refused_xv15("key", "mast_length_ft", "mast_lenght_ft")
+        .says("rotors.mast_lenght_ft: unknown key; expected one of ")
+        .says("mast_length_m");
 }
 
 #[test]
 fn a_missing_key_of_the_aircraft_is_named() {
     let place = folder("bad-missing");
-    let line = XV15.lines().find(|line| line.starts_with("lock_number")).expect("the line");
+    let line = XV15.lines().find(|line| line.starts_with("mast_length_ft")).expect("the line");
     let (path, _) = xv15_with(&place, line, "");
     fly(&place, &["--aircraft", text(&path)])
         .refused()
         .says("my xv15.toml:")
-        .says("rotors: missing key lock_number");
+        .says("rotors: missing key mast_length_m");
 }
 
 #[test]
 fn a_value_of_the_wrong_type_is_named_with_what_was_expected() {
-    refused_xv15("type", "lock_number = { value = 3.83", "lock_number = { value = \"3.83\"")
-        .says("rotors.lock_number: expected a number, found a string");
+    refused_xv15("type", "mast_length_ft = { value = 4.667", "mast_length_ft = { value = \"4.667\"")
+        .says("rotors.mast_length_ft: expected a number, found a string");
 }
 
 #[test]
 fn a_number_out_of_range_is_named_with_the_range() {
-    refused_xv15("range", "lock_number = { value = 3.83", "lock_number = { value = -3.83")
-        .says("rotors.lock_number: expected ")
-        .says("found -3.83");
-    refused_xv15("nan", "lock_number = { value = 3.83", "lock_number = { value = nan")
-        .says("rotors.lock_number.value: expected a finite number");
+    refused_xv15("range", "mast_length_ft = { value = 4.667", "mast_length_ft = { value = -4.667")
+        .says("rotors.mast_length_ft: expected ")
+        .says("found -");
+    refused_xv15("nan", "mast_length_ft = { value = 4.667", "mast_length_ft = { value = nan")
+        .says("rotors.mast_length_ft.value: expected a finite number");
 }
 
 #[test]
 fn a_number_without_its_source_is_refused() {
-    let line = XV15.lines().find(|line| line.starts_with("lock_number")).expect("the line");
-    refused_xv15("source", line, "lock_number = 3.83").says("a number without its source");
+    let line = XV15.lines().find(|line| line.starts_with("mast_length_ft")).expect("the line");
+    refused_xv15("source", line, "mast_length_ft = 4.667").says("a number without its source");
 }
 
 #[test]
 fn what_is_not_toml_is_named_with_its_line() {
-    refused_xv15("toml", "lock_number = {", "lock_number = = {").says("not valid TOML");
+    refused_xv15("toml", "mast_length_ft = {", "lock_number = = {").says("not valid TOML");
     let place = folder("bad-binary");
     let path = place.join("binary.toml");
     fs::write(&path, [0xff, 0xfe, 0x00, 0x80]).expect("a file");

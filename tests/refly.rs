@@ -160,8 +160,8 @@ fn an_aircraft_changed_after_the_flight_is_found_by_digest_and_by_motion() {
     let log = forged("aircraft", |log| {
         log.rewrite(
             "aircraft.toml",
-            "lock_number = { value = 3.83",
-            "lock_number = { value = 3.84",
+            "mast_length_ft = { value = 4.667",
+            "mast_length_ft = { value = 4.668",
         );
     });
     verify(&log)

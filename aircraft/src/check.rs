@@ -16,6 +16,7 @@ const SMALLEST: f64 = 1e-6;
 /// Bounds by key, in SI units. What is not here is within ±[`LARGEST`].
 const BOUNDS: &[(&str, f64, f64)] = &[
     // Divided by.
+    ("mast_length_m", SMALLEST, LARGEST),
     ("radius_m", SMALLEST, LARGEST),
     ("solidity", SMALLEST, 1.0),
     ("blade_inertia_kg_m2", SMALLEST, LARGEST),

@@ -266,8 +266,8 @@ impl Dice {
             },
             ..State::default()
         };
-        state.plant.rotors.left.induced_mps = self.between(-5.0, 25.0);
-        state.plant.rotors.right.induced_mps = self.between(-5.0, 25.0);
+        state.plant.rotors.left.inflow.mean_mps = self.between(-5.0, 25.0);
+        state.plant.rotors.right.inflow.mean_mps = self.between(-5.0, 25.0);
         state.plant.horizontal_stabilizer.downwash_rad = self.between(0.0, 0.15);
         state
     }

@@ -176,7 +176,8 @@ fn a_vortex_ring_is_reported_in_a_steep_descent_and_not_on_the_ground() {
     assert_eq!(standing.validity, 0);
     let mut sinking = aloft(&parked, 0.0, 0.0);
     sinking.plant.velocity_mps.z = 10.0;
-    let (_, sinking) = coast(&xv15, &sinking, 1);
+    // The inflow has to build up first.
+    let (_, sinking) = coast(&xv15, &sinking, TICKS_PER_S / 2);
     assert_eq!(sinking.validity & validity::VORTEX_RING, validity::VORTEX_RING);
 }
 

@@ -567,7 +567,7 @@ impl<'a> Problem<'a> {
     fn set_controls(&self, state: &mut State, collective_rad: f64) {
         let (aircraft, pilot) = (self.aircraft, state.cockpit);
         let travel = &aircraft.fcc.travel;
-        let sensed = step::sense(state, &self.target.world);
+        let sensed = step::sensed(state, &self.target.world);
         let sticks = scas::Sticks {
             aft_m: pilot.stick_aft_norm * travel.longitudinal_stick_m,
             right_m: pilot.stick_right_norm * travel.lateral_stick_m,
