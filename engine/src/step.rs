@@ -218,7 +218,7 @@ impl Blocks {
         let height_above_ground_m = -plant.position_m.z - world.ground_height_m;
 
         let from_rotors =
-            rotors(aircraft, state, motions, &air, &ned_from_body, height_above_ground_m);
+            rotors(aircraft, state, motions, air, &ned_from_body, height_above_ground_m);
         let rotors = from_rotors.map(|(_, outputs)| outputs);
         let (engine_rate, engines) = engines::engines(
             &aircraft.engines,
