@@ -102,8 +102,12 @@ fn a_missing_key_of_the_aircraft_is_named() {
 
 #[test]
 fn a_value_of_the_wrong_type_is_named_with_what_was_expected() {
-    refused_xv15("type", "mast_length_ft = { value = 4.667", "mast_length_ft = { value = \"4.667\"")
-        .says("rotors.mast_length_ft: expected a number, found a string");
+    refused_xv15(
+        "type",
+        "mast_length_ft = { value = 4.667",
+        "mast_length_ft = { value = \"4.667\"",
+    )
+    .says("rotors.mast_length_ft: expected a number, found a string");
 }
 
 #[test]
