@@ -154,6 +154,14 @@ impl Plan {
         let (scenario_name, scenario_toml) =
             text_or(common.scenario.as_deref(), "default.toml", aircraft::DEFAULT_SCENARIO)?;
         let start = aircraft::start(&scenario_name, &scenario_toml)?;
+        let fuel_kg_max = aircraft.weight_balance.fuel_kg_max;
+        if start.fuel_kg > fuel_kg_max {
+            bail!(
+                "{scenario_name}: fuel of {:.0} kg: the tanks of {} hold {fuel_kg_max:.0} kg",
+                start.fuel_kg,
+                aircraft.name
+            );
+        }
         let link = if common.no_flightgear { None } else { Some(Link::new(&common.flightgear)?) };
         if common.out.exists() && !common.force {
             bail!(

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use common::{OK, Said, UNUSABLE, folder, text, tiltrotor};
 
+/// The built-in scenario.
+const SCENARIO: &str = include_str!("../aircraft/scenario/default.toml");
 const XV15: &str = include_str!("../aircraft/xv15.toml");
 
 /// A short flight by the pilot model with something to be refused.
@@ -145,6 +147,18 @@ fn a_wrong_scenario_is_named_with_its_line() {
         .refused()
         .says("scenario.toml:3: wheels: unknown key; expected one of ")
         .says("flap_detent");
+}
+
+#[test]
+fn more_fuel_than_the_tanks_hold_is_refused() {
+    let place = folder("bad-fuel");
+    let scenario = SCENARIO.replace("fuel_lb = 1475.0", "fuel_lb = 3000.0");
+    assert_ne!(scenario, SCENARIO);
+    let path = file(&place, "scenario.toml", &scenario);
+    fly(&place, &["--scenario", text(&path)])
+        .refused()
+        .says("fuel of 1361 kg: the tanks of ")
+        .says(" hold 669 kg");
 }
 
 #[test]
