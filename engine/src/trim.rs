@@ -196,7 +196,16 @@ impl core::fmt::Display for Failure {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Unsteady { residual, of } => {
-                write!(f, "no steady flight found: {of} is left with {residual:.2e} (SI)")
+                let unit = match of.as_str() {
+                    "acceleration forward" | "acceleration down" | "acceleration to the right" => {
+                        " m/s²"
+                    }
+                    "pitch acceleration" | "rotor acceleration" | "roll acceleration"
+                    | "yaw acceleration" => " rad/s²",
+                    // Inner states have their unit in the name, power is relative.
+                    _ => "",
+                };
+                write!(f, "no steady flight found: {of} is left with {residual:.2e}{unit}")
             }
             Self::Beyond { what, wanted_norm, .. } => {
                 write!(

@@ -149,7 +149,7 @@ pub enum FlyError {
     #[error(transparent)]
     Log(#[from] LogError),
     /// There is no steady flight to begin in.
-    #[error("the flight cannot begin in the air: {0}")]
+    #[error("the flight cannot begin in the air")]
     Trim(#[from] engine::trim::Failure),
 }
 
