@@ -32,7 +32,7 @@ pub struct Divergence {
     pub others: usize,
     /// Every stage whose result differs at this tick, in the order of the wiring, with the number of
     /// its fields that do.
-    pub stages: Vec<(Stage, usize)>,
+    pub stages: Vec<(Stage, u64)>,
     /// The last change of an input before it, if there was one.
     pub last_input: Option<InputChange>,
     /// How the difference grew while the reflight went on by the recorded inputs.
@@ -211,7 +211,7 @@ impl Divergence {
         // What has no stage comes last; the order of the state decides within a stage.
         found.sort_by_key(|(stage, difference)| (stage.is_none(), *stage, difference.index));
         let Some((stage, first)) = found.first() else { return Ok(None) };
-        let mut stages: Vec<(Stage, usize)> = Vec::new();
+        let mut stages: Vec<(Stage, u64)> = Vec::new();
         for stage in found.iter().filter_map(|(stage, _)| *stage) {
             count(&mut stages, stage);
         }
@@ -275,11 +275,11 @@ impl SingleSteps {
 }
 
 /// Adds one to a stage's count, in the order of the wiring.
-fn count<N: From<u8> + std::ops::AddAssign>(counts: &mut Vec<(Stage, N)>, stage: Stage) {
+fn count(counts: &mut Vec<(Stage, u64)>, stage: Stage) {
     match counts.iter_mut().find(|(known, _)| *known == stage) {
-        Some((_, number)) => *number += N::from(1),
+        Some((_, number)) => *number += 1,
         None => {
-            counts.push((stage, N::from(1)));
+            counts.push((stage, 1));
             counts.sort_by_key(|(stage, _)| *stage);
         }
     }
@@ -298,7 +298,7 @@ fn apart(recorded: Value, reflown: Value) -> String {
     recorded.ulps_to(reflown).map_or("?".into(), |ulps| ulps.to_string())
 }
 
-fn counted<N: fmt::Display>(stages: &[(Stage, N)]) -> String {
+fn counted(stages: &[(Stage, u64)]) -> String {
     let each: Vec<_> =
         stages.iter().map(|(stage, number)| format!("{} {number}", stage.name())).collect();
     each.join(", ")
