@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufReader, Read};
-use std::path::Path;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
 
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
@@ -18,12 +18,16 @@ use crate::records::{
     Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
     TIMING, TimingRecord, first_digest,
 };
-use crate::setup::{CLOSING, CLOSING_DIGEST, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup};
+use crate::compact::Open;
+use crate::compact::expander::Expander;
+use crate::index::Index;
+use crate::raw::Raw;
+use crate::setup::{CLOSING, Identity, METADATA, RATE_HZ, Setup, last_word};
 use crate::view::{self, Remark};
 use crate::{LogError, cdr};
 
 /// No record of a flight is larger than this; a length beyond it is damage, not data.
-const RECORD_BYTES_MAX: usize = 16 << 20;
+pub(crate) const RECORD_BYTES_MAX: usize = 16 << 20;
 
 /// One tick as recorded.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,8 +62,12 @@ pub struct FlightReader {
     pub setup: Setup,
     /// Who flew it.
     pub identity: Identity,
+    /// The aircraft's shape for viewers, URDF.
+    pub robot_description: String,
     /// State at the start.
     pub initial: State,
+    /// Nothing is read after the state of this tick.
+    pub until_tick: Option<u64>,
     /// Whether the files and the state at the start are those of the first digest.
     pub intact: bool,
     chain: Chain,
@@ -89,12 +97,23 @@ impl FlightReader {
     ///
     /// # Errors
     /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    ///
+    /// [`LogError::Compacted`] for a compacted log; [`FlightReader::open_any`] reads those as well.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        if file.metadata().map_err(LogError::Open)?.is_dir() {
-            return Err(LogError::NotAFlight("a folder".into()));
-        }
-        let mut records = Records::new(file);
+        Self::of(Records::open(path, None)?)
+    }
+
+    /// Opens a log, compacted or not, and reads up to the state at the start. `open` makes the
+    /// aircraft that flies what a compacted log leaves out.
+    ///
+    /// # Errors
+    /// As for [`FlightReader::open`].
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Self::of(Records::open(path, Some(open))?)
+    }
+
+    fn of(mut records: Records) -> Result<Self, LogError> {
+        let mut robot_description = String::new();
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
@@ -119,6 +138,9 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
+                Some(Item::Message(topic, _, data)) if topic == view::ROBOT_DESCRIPTION => {
+                    robot_description = view::text(&data)?;
+                }
                 Some(Item::Message(topic, _, data)) if topic == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
@@ -131,7 +153,9 @@ impl FlightReader {
                         records,
                         setup,
                         identity,
+                        robot_description,
                         initial: first.state,
+                        until_tick: None,
                         intact: digest == first.digest,
                         chain: Chain::from(first.digest),
                         pending: Pending::default(),
@@ -145,6 +169,9 @@ impl FlightReader {
                 }
                 Some(_) => {}
                 None => {
+                    if let Some(error) = records.refused.take() {
+                        return Err(error);
+                    }
                     return Err(match records.ending() {
                         Ending::Damaged(why) => LogError::NotAFlight(why),
                         _ if identity.is_some() => no_flight("it ends before the first state"),
@@ -160,6 +187,11 @@ impl FlightReader {
     /// # Errors
     /// When the messages do not make a flight: out of order, missing, or of another layout.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
+        if self.until_tick.is_some_and(|until| self.last.0 >= until) {
+            // As far as it was wanted, it is whole.
+            self.ending = Some(Ending::Closed);
+            return Ok(None);
+        }
         loop {
             let Some(item) = self.records.next() else {
                 let ending = self.records.ending();
@@ -208,6 +240,73 @@ impl FlightReader {
         }
     }
 
+    /// Begins at the recorded state of a tick, found by the log's index where it has one.
+    ///
+    /// # Errors
+    /// [`LogError::Outside`], or what is wrong with the log up to there.
+    pub fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        let first = self.initial.tick;
+        if tick == self.last.0 {
+            return Ok(());
+        }
+        if tick < self.last.0 {
+            return Err(LogError::Outside { tick, first, last: self.last_tick() });
+        }
+        self.records.seek(tick)?;
+        self.pending = Pending::default();
+        loop {
+            match self.records.next() {
+                Some(Item::Message(topic, _, data)) if topic == STATE => {
+                    let place = cdr::HEADER.len() + size_of::<u64>();
+                    let word = data.get(place..).and_then(|rest| rest.first_chunk::<8>());
+                    let found = word.map_or(0, |word| u64::from_le_bytes(*word));
+                    if found > tick {
+                        return Err(LogError::Order(format!("tick {tick} is not there")));
+                    }
+                    self.last.0 = found;
+                    if found == tick {
+                        let record: StateRecord = cdr::decode(&data)?;
+                        self.initial = record.state;
+                        self.chain = Chain::from(record.digest);
+                        self.last = (tick, record.digest);
+                        return Ok(());
+                    }
+                }
+                Some(Item::Metadata(name, facts)) if name == CLOSING => {
+                    self.closing = last_word(&facts);
+                }
+                Some(_) => {}
+                None => {
+                    return Err(match self.records.ending() {
+                        Ending::Damaged(why) => LogError::Order(format!("damaged: {why}")),
+                        _ => LogError::Outside { tick, first, last: self.last_tick() },
+                    });
+                }
+            }
+        }
+    }
+
+    /// The last tick as the writer closed the log, or as far as it was read.
+    fn last_tick(&self) -> u64 {
+        self.closing.map_or(self.last.0, |closing| closing.0.max(self.last.0))
+    }
+
+    /// Digest of the state that was read last; at first, of the state at the start.
+    pub fn digest(&self) -> u64 {
+        self.last.1
+    }
+
+    /// Whether the last state is as it was recorded. In a compacted log, states between keyframes are
+    /// flown again.
+    pub fn is_recorded(&self) -> bool {
+        self.records.expander.as_ref().is_none_or(|expander| expander.recorded)
+    }
+
+    /// Whether the log is compacted.
+    pub fn is_compacted(&self) -> bool {
+        self.records.expander.is_some()
+    }
+
     fn close_tick(&mut self, data: &[u8]) -> Result<Tick, LogError> {
         let record: StateRecord = cdr::decode(data)?;
         let tick = record.state.tick;
@@ -240,9 +339,14 @@ impl FlightReader {
     }
 }
 
+/// So many ticks after a state, viewers' messages of its tick are written, too.
+const PAST_TICKS: u64 = 2500;
+
 /// Every message of a log as it stands there, whatever its channel.
 pub struct Messages {
     records: Records,
+    from_tick: u64,
+    until_tick: u64,
 }
 
 /// One message.
@@ -262,8 +366,25 @@ impl Messages {
     /// # Errors
     /// When the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        Ok(Self { records: Records::new(file) })
+        Ok(Self { records: Records::open(path, None)?, from_tick: 0, until_tick: u64::MAX })
+    }
+
+    /// Opens a log, compacted or not.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Ok(Self { records: Records::open(path, Some(open))?, from_tick: 0, until_tick: u64::MAX })
+    }
+
+    /// Only the messages from one tick to another; those before are not read where the log's index
+    /// says where they are.
+    ///
+    /// # Errors
+    /// When the log cannot be read.
+    pub fn limit(&mut self, from_tick: u64, until_tick: u64) -> Result<(), LogError> {
+        (self.from_tick, self.until_tick) = (from_tick, until_tick);
+        self.records.seek(from_tick)
     }
 
     /// How the file ends, once the last message has been read.
@@ -278,7 +399,15 @@ impl Iterator for Messages {
     fn next(&mut self) -> Option<Message> {
         loop {
             if let Item::Message(topic, time_ns, data) = self.records.next()? {
-                return Some(Message { topic, time_ns, data });
+                let tick = time_ns / engine::STEP_NS;
+                // What viewers draw is written after the states: an eye's blink later is surely past.
+                if tick > self.until_tick.saturating_add(PAST_TICKS) {
+                    self.records.until_now();
+                    return None;
+                }
+                if (self.from_tick..=self.until_tick).contains(&tick) {
+                    return Some(Message { topic, time_ns, data });
+                }
             }
         }
     }
@@ -310,13 +439,7 @@ fn no_flight(why: &str) -> LogError {
     LogError::NotAFlight(format!("an MCAP file, but not a tiltrotor flight: {why}"))
 }
 
-/// Tick and digest with which the writer closed the log.
-fn last_word(facts: &BTreeMap<String, String>) -> Option<(u64, u64)> {
-    let number = |key| facts.get(key).and_then(|text| text.parse().ok());
-    number(CLOSING_TICK).zip(number(CLOSING_DIGEST))
-}
-
-fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
+pub(crate) fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
     let known = [
         (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
         (Identity::MODEL, "flight model", engine::MODEL_VERSION),
@@ -340,27 +463,65 @@ enum Item {
 
 /// Records of the file, up to its end or the first damage.
 struct Records {
+    path: PathBuf,
     file: BufReader<File>,
     reader: LinearReader,
     topics: BTreeMap<u16, String>,
     ending: Ending,
     started: bool,
+    /// Makes the records of a compacted log.
+    expander: Option<Box<Expander>>,
+    /// What is no damage: a log that is not for this program.
+    refused: Option<LogError>,
 }
 
 impl Records {
-    fn new(file: File) -> Self {
-        let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_validate_data_section_crc(true)
-            .with_validate_summary_section_crc(true)
-            .with_check_finishes_after_end_magic(true)
-            .with_record_length_limit(RECORD_BYTES_MAX);
+    /// Opens a log; one that is compacted only if its states can be flown again.
+    fn open(path: &Path, open: Option<Open>) -> Result<Self, LogError> {
+        let file = File::open(path).map_err(LogError::Open)?;
+        if file.metadata().map_err(LogError::Open)?.is_dir() {
+            return Err(LogError::NotAFlight("a folder".into()));
+        }
+        let mut records = Self::new(path, file);
+        let nobody: Open = |_| Err(LogError::Compacted);
+        if let Some(expander) = Expander::open(path, open.unwrap_or(nobody), false)? {
+            if open.is_none() {
+                return Err(LogError::Compacted);
+            }
+            records.expander = Some(Box::new(expander));
+        }
+        Ok(records)
+    }
+
+    /// Goes where the state of a tick is not far ahead, if the log's index says where.
+    fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        if let Some(expander) = &mut self.expander {
+            return expander.seek(tick);
+        }
+        let Some(index) = Index::read(&self.path) else { return Ok(()) };
+        let Some(place) = index.chunk_of(tick).filter(|&place| place > 0) else { return Ok(()) };
+        self.file.seek(SeekFrom::Start(index.chunks[place].offset))?;
+        // Chunks keep their own checksums; that of the whole file cannot be looked at any more.
+        let options = options().with_skip_start_magic(true).with_validate_data_section_crc(false);
+        self.reader = LinearReader::new_with_options(options);
+        Ok(())
+    }
+
+    /// Nobody wants to read any further.
+    fn until_now(&mut self) {
+        self.ending = Ending::Closed;
+    }
+
+    fn new(path: &Path, file: File) -> Self {
         Self {
+            path: path.to_path_buf(),
             file: BufReader::with_capacity(256 * 1024, file),
-            reader: LinearReader::new_with_options(options),
+            reader: LinearReader::new_with_options(options()),
             topics: BTreeMap::new(),
             ending: Ending::Closed,
             started: false,
+            expander: None,
+            refused: None,
         }
     }
 
@@ -371,6 +532,9 @@ impl Records {
     fn next(&mut self) -> Option<Item> {
         if self.ending != Ending::Closed {
             return None;
+        }
+        if self.expander.is_some() {
+            return self.expanded();
         }
         match self.read() {
             Ok(item) => item,
@@ -385,6 +549,42 @@ impl Records {
             Err(error) => {
                 self.ending = Ending::Damaged(error.to_string());
                 None
+            }
+        }
+    }
+
+    /// The next record of a compacted log.
+    fn expanded(&mut self) -> Option<Item> {
+        let expander = self.expander.as_mut()?;
+        loop {
+            match expander.next() {
+                Ok(Some(Raw::Channel(channel))) => {
+                    self.topics.insert(channel.id, channel.topic);
+                }
+                Ok(Some(Raw::Message(header, data))) => {
+                    if let Some(topic) = self.topics.get(&header.channel_id) {
+                        return Some(Item::Message(topic.clone(), header.log_time, data));
+                    }
+                }
+                Ok(Some(Raw::Metadata(record))) => {
+                    return Some(Item::Metadata(record.name, record.metadata));
+                }
+                Ok(Some(Raw::Attachment(header, data))) => {
+                    return Some(Item::Attachment(header.name, data));
+                }
+                Ok(Some(_)) => {}
+                Ok(None) => return None,
+                Err(LogError::Mcap(McapError::UnexpectedEof)) => {
+                    self.ending = Ending::Truncated;
+                    return None;
+                }
+                Err(error) => {
+                    self.ending = Ending::Damaged(error.to_string());
+                    if matches!(error, LogError::Version { .. } | LogError::Setup(_)) {
+                        self.refused = Some(error);
+                    }
+                    return None;
+                }
             }
         }
     }
@@ -422,4 +622,13 @@ impl Records {
         }
         Ok(None)
     }
+}
+
+fn options() -> LinearReaderOptions {
+    LinearReaderOptions::default()
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_data_section_crc(true)
+        .with_validate_summary_section_crc(true)
+        .with_check_finishes_after_end_magic(true)
+        .with_record_length_limit(RECORD_BYTES_MAX)
 }

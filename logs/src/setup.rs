@@ -53,6 +53,12 @@ impl Setup {
     }
 }
 
+/// Tick and digest with which the writer closed the log.
+pub(crate) fn last_word(facts: &BTreeMap<String, String>) -> Option<(u64, u64)> {
+    let number = |key| facts.get(key).and_then(|text| text.parse().ok());
+    number(CLOSING_TICK).zip(number(CLOSING_DIGEST))
+}
+
 /// Who made the program that flew, and when it flew: key and value, for people and for `log info`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Identity(pub BTreeMap<String, String>);

@@ -5,7 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter};
 use std::path::Path;
 
-use engine::frames::{Attitude, Vec3};
+use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Outputs, State};
 use mcap::records::MessageHeader;
@@ -21,7 +21,7 @@ use crate::view::{self, Level};
 use crate::{LogError, cdr, schema};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
-const CHUNK_BYTES: u64 = 128 * 1024;
+pub(crate) const CHUNK_BYTES: u64 = 128 * 1024;
 /// Ticks between frames, stick positions and joints for viewers: 50 Hz.
 const VIEW_TICKS: u64 = 5;
 /// Ticks between outputs: 25 Hz.
@@ -51,8 +51,7 @@ pub struct FlightWriter {
     chain: Chain,
     last_tick: u64,
     message: Vec<u8>,
-    pivot_m: Vec3<engine::frames::Structural>,
-    mast_m: f64,
+    shape: view::Shape,
 }
 
 /// How a log ended.
@@ -127,12 +126,12 @@ impl FlightWriter {
             chain: Chain::from(digest),
             last_tick: initial.tick,
             message: Vec::with_capacity(8192),
-            pivot_m: aircraft.rotors.pivot_m,
-            mast_m: aircraft.rotors.mast_length_m,
+            shape: view::Shape::of(aircraft),
         };
         let text = cdr::encode_view(&view::Text { data: robot_description })?;
-        writer.put(description, 0, &text)?;
-        writer.record(writer.channels.state, 0, &StateRecord { digest, state: *initial })?;
+        writer.put(description, initial.tick, &text)?;
+        let first = StateRecord { digest, state: *initial };
+        writer.record(writer.channels.state, initial.tick, &first)?;
         writer.flush()?;
         Ok(writer)
     }
@@ -201,21 +200,20 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn view(&mut self, outputs: &Outputs, attitude: Attitude) -> Result<(), LogError> {
         let tick = outputs.tick;
-        if tick.is_multiple_of(OUTPUT_TICKS) {
-            self.record(self.channels.outputs, tick, outputs)?;
-        }
-        if tick.is_multiple_of(VIEW_TICKS) {
-            let pivot = self.pivot_m.from_cg(outputs.balance.cg_m);
-            let tf = cdr::encode_view(&view::tf(outputs, attitude, pivot, self.mast_m))?;
-            self.put(self.channels.tf, tick, &tf)?;
-            let joy = cdr::encode_view(&view::joy(outputs))?;
-            self.put(self.channels.joy, tick, &joy)?;
-            let joints = cdr::encode_view(&view::joint_states(outputs))?;
-            self.put(self.channels.joints, tick, &joints)?;
-        }
-        if tick.is_multiple_of(FIX_TICKS) {
-            let fix = cdr::encode_view(&view::fix(outputs))?;
-            self.put(self.channels.fix, tick, &fix)?;
+        let channels = &self.channels;
+        let due = [
+            (channels.outputs, OUTPUTS, OUTPUT_TICKS),
+            (channels.tf, view::TF, VIEW_TICKS),
+            (channels.joy, view::JOY, VIEW_TICKS),
+            (channels.joints, view::JOINT_STATES, VIEW_TICKS),
+            (channels.fix, view::FIX, FIX_TICKS),
+        ];
+        for (channel, topic, ticks) in due {
+            if tick.is_multiple_of(ticks)
+                && let Some(message) = view::message(topic, outputs, attitude, &self.shape)?
+            {
+                self.put(channel, tick, &message)?;
+            }
         }
         Ok(())
     }
