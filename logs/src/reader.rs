@@ -82,6 +82,10 @@ pub struct FlightReader {
     pub remarks: Vec<Remark>,
     /// How the ticks kept time; cleared by whoever takes them.
     pub timings: Vec<TimingRecord>,
+    /// What could be observed, if it is to be kept; cleared by whoever takes it.
+    pub outputs: Vec<Outputs>,
+    /// Whether `outputs` is to be kept: no flight depends on it.
+    pub keep_outputs: bool,
     ending: Option<Ending>,
 }
 
@@ -164,6 +168,8 @@ impl FlightReader {
                         happenings: Vec::new(),
                         remarks: Vec::new(),
                         timings: Vec::new(),
+                        outputs: Vec::new(),
+                        keep_outputs: false,
                         ending: None,
                     });
                 }
@@ -233,6 +239,7 @@ impl FlightReader {
                 }
                 STATE => return self.close_tick(&data).map(Some),
                 TIMING => self.timings.push(cdr::decode(&data)?),
+                OUTPUTS if self.keep_outputs => self.outputs.push(cdr::decode(&data)?),
                 EVENTS => self.happenings.push(cdr::decode(&data)?),
                 view::LOG => self.remarks.push(view::remark(&data)?),
                 _ => {}
