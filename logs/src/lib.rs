@@ -7,8 +7,10 @@
 pub mod cdr;
 pub mod fields;
 mod reader;
+mod recover;
 pub mod records;
 pub mod schema;
+mod seal;
 mod setup;
 pub mod view;
 mod writer;
@@ -17,6 +19,7 @@ use std::io;
 use std::path::Path;
 
 pub use reader::{Ending, FlightReader, Message, Messages, Tick};
+pub use recover::{Recovery, recover};
 pub use setup::{Identity, Setup};
 pub use writer::{Closed, FlightWriter};
 
@@ -56,6 +59,9 @@ pub enum LogError {
     /// Messages that do not make a flight.
     #[error("the log's messages do not make a flight: {0}")]
     Order(String),
+    /// Nothing to be recovered.
+    #[error("there is nothing to recover: {0}")]
+    NotRecoverable(String),
     /// A struct that has no form as a message.
     #[error("cannot encode: {0}")]
     Encode(String),
