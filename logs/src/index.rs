@@ -10,9 +10,9 @@ use std::path::Path;
 use mcap::sans_io::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
 
 use crate::raw::{Raw, RawReader};
-use crate::reader::RECORD_BYTES_MAX;
+use crate::reader::{RECORD_BYTES_MAX, last_word};
 use crate::records::{EVENTS, EventRecord, Happening, time_ns};
-use crate::setup::{CLOSING, last_word};
+use crate::setup::CLOSING;
 use crate::{LogError, cdr};
 
 /// Where a chunk is, and which moments it holds.
@@ -78,7 +78,9 @@ pub fn closing(path: &Path) -> Option<(u64, u64)> {
     let mut raw = RawReader::open(path).ok()?;
     raw.jump(offset).ok()?;
     match raw.next().ok()?? {
-        Raw::Metadata(record) if record.name == CLOSING => last_word(&record.metadata),
+        Raw::Metadata(record) if record.name == CLOSING => {
+            last_word(&record.metadata).map(|word| word.last)
+        }
         _ => None,
     }
 }

@@ -11,8 +11,10 @@ mod index;
 mod narrator;
 mod raw;
 mod reader;
+mod recover;
 pub mod records;
 pub mod schema;
+mod seal;
 mod setup;
 pub mod units;
 pub mod view;
@@ -24,6 +26,7 @@ use std::path::Path;
 pub use index::{closing, marker};
 pub use narrator::Narrator;
 pub use reader::{Ending, FlightReader, Message, Messages, Tick};
+pub use recover::{Recovery, recover};
 pub use setup::{Identity, Setup};
 pub use writer::{Closed, FlightWriter};
 
@@ -63,6 +66,9 @@ pub enum LogError {
     /// Messages that do not make a flight.
     #[error("the log's messages do not make a flight: {0}")]
     Order(String),
+    /// Nothing to be recovered.
+    #[error("there is nothing to recover: {0}")]
+    NotRecoverable(String),
     /// A struct that has no form as a message.
     #[error("cannot encode: {0}")]
     Encode(String),

@@ -11,6 +11,8 @@ pub(crate) const CLOSING: &str = "tiltrotor_closing";
 pub(crate) const CLOSING_TICK: &str = "tick";
 /// Its key for the last digest.
 pub(crate) const CLOSING_DIGEST: &str = "digest";
+/// Its key for the roll call of all messages.
+pub(crate) const CLOSING_MESSAGES: &str = "messages";
 
 /// Ticks a second.
 pub(crate) const RATE_HZ: &str = "250";
@@ -51,12 +53,6 @@ impl Setup {
             _ => None,
         }
     }
-}
-
-/// Tick and digest with which the writer closed the log.
-pub(crate) fn last_word(facts: &BTreeMap<String, String>) -> Option<(u64, u64)> {
-    let number = |key| facts.get(key).and_then(|text| text.parse().ok());
-    number(CLOSING_TICK).zip(number(CLOSING_DIGEST))
 }
 
 /// Who made the program that flew, and when it flew: key and value, for people and for `log info`.

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 
+use engine::{Outputs, State};
 use mcap::McapError;
 use mcap::records::{AttachmentHeader, MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
@@ -122,6 +123,11 @@ impl Expander {
     /// Size and hash of the log that was compacted.
     pub fn original(&self) -> Option<Fingerprint> {
         self.tail.as_ref()?.original
+    }
+
+    /// The last tick as it was flown again.
+    pub fn flown(&self) -> Option<(&State, &Outputs)> {
+        self.flier.as_ref()?.flown.as_ref().map(|(state, outputs)| (state, outputs))
     }
 
     /// Goes where the state of the tick is not far ahead.
@@ -369,8 +375,7 @@ impl Tail {
 
 /// The tick of a `/state` message: it follows the digest, whatever else is in the state.
 fn tick_of(message: &[u8]) -> Result<u64, LogError> {
-    let word = message.get(cdr::HEADER.len() + 8..).and_then(|rest| rest.first_chunk::<8>());
-    word.map(|word| u64::from_le_bytes(*word)).ok_or_else(|| broken("a state without a tick"))
+    cdr::word(message, 1).ok_or_else(|| broken("a state without a tick"))
 }
 
 /// The header that our writer gives a message of a tick.

@@ -30,10 +30,12 @@ pub struct Flown {
 
 /// Flies what the log says.
 pub struct Flier {
-    flown: Flown,
+    of: Flown,
     shape: Shape,
-    /// After the last tick.
+    /// After the last tick; as it was recorded, where it was.
     pub state: State,
+    /// After the last tick, as it was flown.
+    pub flown: Option<(State, Outputs)>,
     events: Vec<DeviceEvent>,
     inputs: InputsRecord,
     outputs: VecDeque<(Outputs, Attitude)>,
@@ -42,10 +44,11 @@ pub struct Flier {
 }
 
 impl Flier {
-    pub fn new(flown: Flown) -> Self {
+    pub fn new(of: Flown) -> Self {
         Self {
-            shape: Shape::of(&flown.aircraft),
-            flown,
+            shape: Shape::of(&of.aircraft),
+            of,
+            flown: None,
             state: State::default(),
             events: Vec::new(),
             inputs: InputsRecord::default(),
@@ -60,11 +63,12 @@ impl Flier {
         self.begun_tick = state.tick;
         self.events.clear();
         self.outputs.clear();
+        self.flown = None;
         if state.tick == 0 {
             // What was there to be seen before the first tick, as it was shown to the crew.
-            let world = World { paused: 1, ..self.flown.world };
+            let world = World { paused: 1, ..self.of.world };
             let inputs = Inputs { events: &[], world };
-            let outputs = step(&self.flown.aircraft, &state, &inputs).1;
+            let outputs = step(&self.of.aircraft, &state, &inputs).1;
             self.keep(Outputs { tick: 0, ..outputs });
         }
     }
@@ -84,9 +88,10 @@ impl Flier {
     /// Flies the tick.
     pub fn fly(&mut self) {
         let inputs = Inputs { events: &self.events, world: self.inputs.world };
-        let (state, outputs) = step(&self.flown.aircraft, &self.state, &inputs);
+        let (state, outputs) = step(&self.of.aircraft, &self.state, &inputs);
         self.events.clear();
         self.state = state;
+        self.flown = Some((state, outputs));
         self.keep(outputs);
     }
 
