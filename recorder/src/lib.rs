@@ -7,7 +7,6 @@
 mod clock;
 mod flight;
 mod hands;
-mod narrator;
 pub mod pilots;
 mod rehearsal;
 pub mod script;
