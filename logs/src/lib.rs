@@ -7,8 +7,8 @@
 pub mod cdr;
 pub mod fields;
 mod reader;
-mod recover;
 pub mod records;
+mod recover;
 pub mod schema;
 mod seal;
 mod setup;

@@ -10,6 +10,7 @@ mod hands;
 mod narrator;
 pub mod pilots;
 pub mod script;
+mod self_check;
 pub mod statistics;
 #[cfg(feature = "sticks")]
 pub mod sticks;
@@ -18,3 +19,5 @@ pub mod writer;
 pub use clock::Pace;
 pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};
 pub use hands::{Hands, Reach};
+pub use self_check::{Checked, Mismatch};
+pub use writer::Delay;

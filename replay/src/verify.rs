@@ -6,7 +6,7 @@ use std::path::Path;
 use engine::STEP_S;
 use engine::inputs::{DeviceEvent, EventKind};
 use logs::fields::{Value, fields};
-use logs::{Ending, LogError};
+use logs::{Ending, Identity, LogError, Recovery};
 
 use crate::refly::{Reflight, ReplayError};
 
@@ -27,6 +27,8 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
+    /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
+    pub recovered: Option<String>,
 }
 
 /// Where the reflown state is not the recorded one.
@@ -88,6 +90,7 @@ pub fn verify(path: &Path, mut progress: impl FnMut(u64)) -> Result<Verdict, Rep
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        recovered: recovered(&flight.reader.identity),
     };
     let mut last_input = None;
     loop {
@@ -121,11 +124,17 @@ pub fn verify(path: &Path, mut progress: impl FnMut(u64)) -> Result<Verdict, Rep
             verdict.divergence =
                 divergence(tick.record.state.tick, &recorded, &reflown, last_input);
         }
-        flight.reader.timings.clear();
+        flight.reader.forget();
         progress(verdict.ticks);
     }
     verdict.ending = flight.ending();
     Ok(verdict)
+}
+
+fn recovered(identity: &Identity) -> Option<String> {
+    let parent = identity.0.get(Recovery::PARENT)?;
+    let (tick, reason) = (identity.get(Recovery::TICK), identity.get(Recovery::REASON));
+    Some(format!("it was recovered from {parent} up to tick {tick}, because {reason}"))
 }
 
 fn divergence(
@@ -162,6 +171,9 @@ impl fmt::Display for Verdict {
                     self.digest
                 )?;
             }
+            Outcome::Incomplete if self.recovered.is_some() => {
+                write!(f, "exact up to {}, as far as it goes", time(self.exact))?;
+            }
             Outcome::Incomplete => {
                 write!(
                     f,
@@ -174,6 +186,9 @@ impl fmt::Display for Verdict {
                 let more = if self.ending == Ending::Closed { "" } else { " or more" };
                 write!(f, "exact up to tick {} of {}{more}", self.exact, self.ticks)?;
             }
+        }
+        if let Some(recovered) = &self.recovered {
+            write!(f, "\n{recovered}")?;
         }
         if let Some(divergence) = &self.divergence {
             write!(f, "\n{divergence}")?;
