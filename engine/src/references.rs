@@ -38,6 +38,9 @@
 //!   divergence of a section; recalled.
 //! - **CHEESEMAN**: Cheeseman and Bennett, *The Effect of the Ground on a Helicopter Rotor in Forward
 //!   Flight*, ARC R&M 3021, 1955.
+//! - **HAYDEN**: Hayden, *The Effect of the Ground on Helicopter Hovering Power Required*, 32nd
+//!   Forum of the American Helicopter Society, 1976. Induced power near the ground, a fit to flights
+//!   of several helicopters; recalled as Leishman gives it.
 //! - **STEVENS**: Stevens, Lewis, Johnson, *Aircraft Control and Simulation*, 3rd ed. Rigid-body
 //!   equations with quaternions.
 //!

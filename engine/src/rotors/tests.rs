@@ -42,7 +42,11 @@ fn ideal() -> Params {
                 korn_factor: 9.0,
             },
         },
-        inflow: inflow::Params { induced_power_factor: 1.0 },
+        inflow: inflow::Params {
+            induced_power_factor: 1.0,
+            recirculation: 0.0,
+            download_near_ground: Table1 { x: vec![0.5, 3.0], y: vec![0.5, 1.0] },
+        },
         flapping: flapping::Params {
             blade_inertia_kg_m2: 139.0,
             blade_spring_n_m_per_rad: 773e3,
