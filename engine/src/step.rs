@@ -458,6 +458,7 @@ fn half_wings(
             mast_tilt_rad,
             thrust_axis,
             induced_mps,
+            rotor_radius_m: aircraft.rotors.radius_m,
             pivot_m: aircraft.rotors.pivot_m,
             hub_from_cg_m: aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad),
             flap_rad: surfaces.flap_rad,
