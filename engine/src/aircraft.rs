@@ -56,6 +56,7 @@ impl Aircraft {
             ("fcc.mixer.lateral_cyclic_rad", mixer.lateral_cyclic_rad.fault()),
             ("fcc.mixer.lateral_cyclic_norm", mixer.lateral_cyclic_norm.fault()),
             ("rotors.blade", self.rotors.blade.fault()),
+            ("rotors.inflow.download_near_ground", self.rotors.inflow.download_near_ground.fault()),
             ("fcc.governor.collective_min", self.fcc.governor.collective_rad_min.fault()),
             ("actuators.nacelle", self.actuators.nacelle_radps.fault()),
             ("engines.power_by_lever", self.engines.power_by_lever_norm.fault()),

@@ -7,8 +7,8 @@
 mod clock;
 mod flight;
 mod hands;
-mod narrator;
 pub mod pilots;
+mod rehearsal;
 pub mod script;
 pub mod statistics;
 #[cfg(feature = "sticks")]
@@ -18,3 +18,4 @@ pub mod writer;
 pub use clock::Pace;
 pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};
 pub use hands::{Hands, Reach};
+pub use rehearsal::{Moment, rehearse};
