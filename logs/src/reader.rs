@@ -743,8 +743,9 @@ impl Records {
                         Record::Channel(channel) => self.meet(channel),
                         Record::Message { header, data } => {
                             let Some(topic) = self.topics.get(&header.channel_id) else {
-                                self.ending =
-                                    Ending::Damaged("a message on a channel that is not there".into());
+                                self.ending = Ending::Damaged(
+                                    "a message on a channel that is not there".into(),
+                                );
                                 return Ok(None);
                             };
                             let stamp = Stamp {
@@ -799,7 +800,9 @@ fn attachment_fits(record: &[u8]) -> bool {
         let Some(length) = record.get(at..).and_then(|rest| rest.first_chunk()) else {
             return false;
         };
-        at = at.saturating_add(size_of::<u32>()).saturating_add(u32::from_le_bytes(*length) as usize);
+        at = at
+            .saturating_add(size_of::<u32>())
+            .saturating_add(u32::from_le_bytes(*length) as usize);
     }
     at.saturating_add(DATA_LENGTH + CRC) <= record.len()
 }
