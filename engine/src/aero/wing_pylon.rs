@@ -226,8 +226,8 @@ fn free_stream(
     let q = 0.5 * rho * square(speed_mps);
     let (tilt, flap) = (inputs.mast_tilt_rad, Flap::new(inputs.flap_rad));
     let alpha = wrap_angle(inputs.alpha_rad);
-    let cl = params.lift.at(tilt, flap, inputs.mach, alpha);
-    let cd = params.drag.at(tilt, flap, inputs.mach, alpha);
+    let cl = params.lift.lift_at(tilt, flap, inputs.mach, alpha);
+    let cd = params.drag.drag_at(tilt, flap, inputs.mach, alpha);
     let cm = params.pitching_moment.at(tilt, inputs.flap_rad);
 
     let half_m2 = 0.5 * params.area_m2;
@@ -281,8 +281,8 @@ fn immersed(params: &Params, inputs: &Inputs, part: &wake_footprint::Footprint) 
     let deflection_rad = atan2(velocity.z, velocity.x) - inputs.alpha_rad;
     let alpha = wrap_angle(washed.alpha_rad - deflection_rad);
     let flap = Flap::new(inputs.flap_rad);
-    let cl = params.lift.at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
-    let cd = params.drag.at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
+    let cl = params.lift.lift_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
+    let cd = params.drag.drag_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
     let pressure_area = washed.pressure_pa * part.area_m2;
     let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, alpha);
     let ahead_m = 0.25 * part.chord_m * cos(alpha);
