@@ -97,6 +97,10 @@ impl Order {
 const CORRIDOR_MPS: f64 = 8.0 * KNOT_MPS;
 /// The nacelles' way from the decision to the next one, rad: four degrees.
 const AHEAD_RAD: f64 = 0.07;
+/// Rotor speed of a conversion, rad/s: 589 rpm.
+const ROTOR_RADPS: f64 = 61.68;
+/// Part of it by which the rotors may be off while the nacelles move.
+const ROTORS_OFF_MAX: f64 = 0.05;
 /// Nearer to an end than this the nacelles are there, rad.
 const END_RAD: f64 = 0.003;
 /// Deceleration of an approach, m/s².
@@ -320,8 +324,11 @@ impl Pilot {
     pub(super) fn switches(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
         let order = &self.order;
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
+        // The governor is given time to follow: the rotors' own warnings come at 625 rpm and 90 %.
+        let rotors_off = seen.rotor_speed_radps / ROTOR_RADPS - 1.0;
         let thumb = match order.nacelles {
             Nacelles::Stay => 0,
+            _ if rotors_off.abs() > ROTORS_OFF_MAX => 0,
             Nacelles::Forward if tilt_rad < FRAC_PI_2 - 1e-4 => {
                 let ahead_rad = min(tilt_rad + AHEAD_RAD, FRAC_PI_2);
                 let fast = order.airspeed_mps > slowest_mps(ahead_rad) + CORRIDOR_MPS;

@@ -194,7 +194,7 @@ impl Skill {
         self.pedal_right_norm = clamp(self.pedal_right_norm + learned_foot * learn, -0.7, 0.7);
         Positions {
             stick_aft_norm: self.stick_aft_norm + 1.5 * light * pull_off,
-            stick_right_norm: self.stick_right_norm + 0.5 * roll_off,
+            stick_right_norm: self.stick_right_norm + 0.9 * roll_off,
             pedal_right_norm: self.pedal_right_norm + slow * spot_foot + flying * 0.9 * ball_foot,
             lever_norm,
         }
@@ -286,7 +286,7 @@ impl Skill {
                 clamp(self.roll_level_rad + slow * 0.006 * right_off * HAND_S, -0.15, 0.15);
             self.roll_level_rad *= 1.0 - flying * HAND_S / 2.0;
         }
-        let hover_rad = clamp(0.05 * right_off, -0.2, 0.2);
+        let hover_rad = clamp(0.04 * right_off, -0.2, 0.2);
         let heading_off = wrap_angle(aim.heading_rad - seen.euler.heading_rad);
         let turn_radps = clamp(0.2 * heading_off, -0.35, 0.35);
         let bank_rad = clamp(
