@@ -33,8 +33,8 @@ pub enum Phase {
     Home { bank_rad: f64 },
     /// Flies to that spot, reconverts and slows down on the way, hovers over it.
     Approach { height_m: f64 },
-    /// Reconverts and slows down straight ahead, hovers.
-    Stop { height_m: f64 },
+    /// Reconverts and slows down straight ahead, hovers at a height over the ground, or at the one it has.
+    Stop { height_m: Option<f64> },
     /// Turns over a spot to the heading of the start.
     FaceStart,
     /// Descends onto the wheels and lowers the lever.
@@ -105,6 +105,8 @@ const ROTORS_OFF_MAX: f64 = 0.05;
 const END_RAD: f64 = 0.003;
 /// Deceleration of an approach, m/s².
 const APPROACH_MPS2: f64 = 1.4;
+/// Slowest descent from high up, m/s.
+const DESCENT_MPS: f64 = 28.0;
 /// How fast the lever goes down after touchdown, 1/s.
 const LOWER_PER_S: f64 = 0.3;
 /// From touchdown to the end of the flight, s.
@@ -218,11 +220,18 @@ impl Pilot {
             && self.is_helicopter(seen)
     }
 
-    /// Straight ahead.
-    fn stop(&mut self, seen: &Outputs, height_m: f64) -> bool {
-        let slow_mps = max(0.0, self.order.forward_mps - APPROACH_MPS2 * HAND_S);
+    /// Straight ahead: down to a low height first, with speed, then to a hover there.
+    fn stop(&mut self, seen: &Outputs, height_m: Option<f64>) -> bool {
+        let height_m = height_m.unwrap_or(self.order.height_m);
+        let high_m = seen.height_above_ground_m - height_m;
+        // Out of its own wake an aircraft that flies may sink twice as fast as one that hovers.
+        let least_mps = if high_m > 40.0 { DESCENT_MPS } else { 0.0 };
+        let slow_mps = max(least_mps, self.order.forward_mps - APPROACH_MPS2 * HAND_S);
         self.slow_down(seen, slow_mps);
-        if seen.velocity_mps.norm() < 15.0 {
+        if self.is_helicopter(seen) {
+            if high_m > 40.0 && seen.airspeed_mps > 0.8 * DESCENT_MPS {
+                self.order.sink_mps_max = 5.0;
+            }
             self.order.height_m = min(self.order.height_m, height_m);
         }
         seen.velocity_mps.norm() < 1.0
