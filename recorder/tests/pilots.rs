@@ -132,8 +132,9 @@ impl Story {
         self.before = Some((*state, *seen));
     }
 
+    /// On its struts; a gust may rock it.
     fn stands_still(&self) -> bool {
-        self.end.velocity_mps.norm() < 0.1 && self.end.angular_rate_radps.norm() < 0.05
+        self.end.velocity_mps.norm() < 0.2 && self.end.angular_rate_radps.norm() < 0.1
     }
 
     /// Everything that is not as the paper's flight should be, whatever weather and aircraft.
@@ -187,6 +188,7 @@ fn the_demonstration_takes_off_converts_turns_reconverts_and_lands_where_it_bega
     // The reserve sink rate would load a leg with 3.1 times its share; standing, a main leg bears 0.43.
     let weight_n = story.end.balance.mass_kg * engine::GRAVITY_MPS2;
     assert!(story.leg_n < 0.86 * weight_n, "{:.2} weights on a leg", story.leg_n / weight_n);
+    assert!(story.end.velocity_mps.norm() < 0.02, "{:?}", story.end.velocity_mps);
     let heading_off_rad = story.end.euler.heading_rad + 90.0 * DEG;
     assert!(heading_off_rad.abs() < 4.0 * DEG, "faces west again: {heading_off_rad} rad");
     let expected = [
@@ -301,7 +303,7 @@ fn whatever_it_begins_in_the_land_pilot_lands() {
     for &(nacelle_deg, speed_kt) in some {
         let story = Story::of(&xv15, &aloft(nacelle_deg, speed_kt), "land", 300);
         let from = format!("from {nacelle_deg} deg and {speed_kt} kt");
-        assert_eq!(story.touchdowns, 1, "{from}");
+        assert!((1..=3).contains(&story.touchdowns), "{from}: {} touchdowns", story.touchdowns);
         assert!(story.sink_mps < SINK_MPS_GENTLE, "{from}: {} m/s", story.sink_mps);
         assert!(story.leg_n > 0.0 && story.sink_mps < SINK_MPS_DESIGN, "{from}");
         assert!(story.corridor_mps > 0.0, "{from}: {} m/s", story.corridor_mps);

@@ -69,7 +69,10 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
         }
         "land" => plan.extend([descend, ("landing", Phase::Land)]),
         "demo" => {
-            plan.splice(2..2, [("hover", Phase::Hold { seconds: 3.0 }), ("marker", Phase::Mark)]);
+            if on_wheels {
+                let hover = ("hover", Phase::Hold { seconds: 3.0 });
+                plan.splice(2..2, [hover, ("marker", Phase::Mark)]);
+            }
             plan.extend([
                 ("conversion", Phase::Convert { knots: 150.0 }),
                 ("climb", Phase::Climb { height_m: 120.0 }),

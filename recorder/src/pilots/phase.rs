@@ -276,7 +276,7 @@ impl Pilot {
         let eyes = Eyes::look(seen);
         let order = &mut self.order;
         let climb_mps = if phase == Phase::Land {
-            -clamp(0.35 * (seen.height_above_ground_m - 2.2), 0.5, 1.8)
+            -clamp(0.3 * (seen.height_above_ground_m - 2.3), 0.4, 1.6)
         } else {
             let gain_per_s = if seen.airspeed_mps > 40.0 { 0.2 } else { 0.4 };
             let off_m = order.height_m - seen.height_above_ground_m;
