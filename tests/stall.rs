@@ -18,6 +18,8 @@ use logs::records::Happening;
 
 /// How long the reader of the pipe is stopped, s.
 const STALL_S: u64 = 5;
+/// So much is written within the first second or two.
+const UNDER_WAY_BYTES: u64 = 300_000;
 /// The loop's share of a tick on which the writer has an influence. A loop that waited for the writer
 /// would show seconds here; a busy machine may take its processor away for some tens of milliseconds.
 const HAND_OVER_MAX: Duration = Duration::from_millis(500);
@@ -39,7 +41,7 @@ fn a_writer_stalled_for_five_seconds_delays_no_tick_and_loses_no_input() {
         .stdout(File::create(&log).expect("a file"))
         .spawn()
         .expect("cat runs");
-    let flight = command(&[
+    let mut flight = command(&[
         "fly",
         "--pilot",
         "hover",
@@ -55,7 +57,12 @@ fn a_writer_stalled_for_five_seconds_delays_no_tick_and_loses_no_input() {
     .stderr(Stdio::piped())
     .spawn()
     .expect("the command runs");
-    sleep(Duration::from_secs(1));
+    // Under way, with more in the log than the files it begins with.
+    while log.metadata().map_or(0, |file| file.len()) < UNDER_WAY_BYTES {
+        sleep(Duration::from_millis(10));
+        let ended = flight.try_wait().expect("a status");
+        assert!(ended.is_none(), "it ended before it began: {ended:?}");
+    }
     signal("STOP", reader.id());
     sleep(Duration::from_secs(STALL_S));
     signal("CONT", reader.id());
