@@ -117,9 +117,9 @@ fn recording_has_room(tick: u64) {
 #[divan::bench(sample_count = 10, sample_size = 1)]
 fn verify_a_minute(bencher: Bencher) {
     let (log, _) = flown("verify");
-    bencher
-        .counter(ItemsCount::new(TICKS))
-        .bench_local(|| replay::verify(&log, |_| ()).expect("a log").exact);
+    bencher.counter(ItemsCount::new(TICKS)).bench_local(|| {
+        replay::verify(&log, &replay::Options::default(), |_| ()).expect("a log").exact
+    });
     let _ = fs::remove_file(log);
 }
 

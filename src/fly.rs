@@ -12,7 +12,7 @@ use engine::cockpit;
 use flightgear::Link;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
-use recorder::pilots::{PILOTS, Pilot};
+use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::{Flight, Landing, Progress, fly};
 
@@ -24,7 +24,7 @@ pub struct Args {
     /// Fly with the sticks that are plugged in
     #[arg(long)]
     stick: bool,
-    /// Let a pilot model fly: hover, demo
+    /// Let a pilot model fly: hover, demo, takeoff, convert, turn, reconvert, land
     #[arg(long, value_name = "NAME")]
     pilot: Option<String>,
     /// Play the timed events of a file
@@ -132,8 +132,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         plan.flight.hands.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
     }
     plan.set_map(map)?;
-    if args.duration.is_none() && args.common.fast && args.pilot.as_deref() == Some("hover") {
-        bail!("the hover pilot never lands: give --duration SECONDS with --fast");
+    if let (Some(name), None, true) = (&args.pilot, args.duration, args.common.fast)
+        && !pilots::lands(name)
+    {
+        bail!("the {name} pilot never lands: give --duration SECONDS with --fast");
     }
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufReader, Read};
-use std::path::Path;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
 
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
@@ -13,7 +13,11 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::compact::Open;
+use crate::compact::expander::Expander;
 use crate::fields::{Field, fields};
+use crate::index::Index;
+use crate::raw::Raw;
 use crate::records::{
     Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
     TIMING, TimingRecord, first_digest,
@@ -64,8 +68,12 @@ pub struct FlightReader {
     pub setup: Setup,
     /// Who flew it.
     pub identity: Identity,
+    /// The aircraft's shape for viewers, URDF.
+    pub robot_description: String,
     /// State at the start.
     pub initial: State,
+    /// Nothing is read after the state of this tick.
+    pub until_tick: Option<u64>,
     /// Whether the files and the state at the start are those of the first digest.
     pub intact: bool,
     chain: Chain,
@@ -82,6 +90,10 @@ pub struct FlightReader {
     pub remarks: Vec<Remark>,
     /// How the ticks kept time; cleared by whoever takes them.
     pub timings: Vec<TimingRecord>,
+    /// What could be observed, if it is to be kept; cleared by whoever takes it.
+    pub outputs: Vec<Outputs>,
+    /// Whether `outputs` is to be kept: no flight depends on it.
+    pub keep_outputs: bool,
     ending: Option<Ending>,
 }
 
@@ -96,13 +108,19 @@ impl FlightReader {
     /// Opens a log and reads up to the state at the start.
     ///
     /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours; [`LogError::Compacted`]
+    /// for a compacted log, which [`FlightReader::open_any`] reads as well.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        if file.metadata().map_err(LogError::Open)?.is_dir() {
-            return Err(LogError::NotAFlight("a folder".into()));
-        }
-        Self::read(file)
+        Self::of(Records::open(path, None)?)
+    }
+
+    /// Opens a log, compacted or not, and reads up to the state at the start. `open` makes the
+    /// aircraft that flies what a compacted log leaves out.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Self::of(Records::open(path, Some(open))?)
     }
 
     /// Reads a log from anywhere, up to the state at the start.
@@ -110,7 +128,11 @@ impl FlightReader {
     /// # Errors
     /// When it is not MCAP, or not a flight of ours.
     pub fn read(source: impl Read + Send + 'static) -> Result<Self, LogError> {
-        let mut records = Records::new(source);
+        Self::of(Records::new(source))
+    }
+
+    fn of(mut records: Records) -> Result<Self, LogError> {
+        let mut robot_description = String::new();
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
@@ -138,6 +160,11 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
+                Some(Item::Message(Message { topic, data, .. }))
+                    if topic == view::ROBOT_DESCRIPTION =>
+                {
+                    robot_description = view::text(&data)?;
+                }
                 Some(Item::Message(Message { topic, data, .. })) if topic == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
@@ -150,7 +177,9 @@ impl FlightReader {
                         records,
                         setup,
                         identity,
+                        robot_description,
                         initial: first.state,
+                        until_tick: None,
                         intact: digest == first.digest,
                         unbroken: digest == first.digest,
                         chain: Chain::from(first.digest),
@@ -160,11 +189,16 @@ impl FlightReader {
                         happenings: Vec::new(),
                         remarks: Vec::new(),
                         timings: Vec::new(),
+                        keep_outputs: false,
+                        outputs: Vec::new(),
                         ending: None,
                     });
                 }
                 Some(_) => {}
                 None => {
+                    if let Some(error) = records.refused.take() {
+                        return Err(error);
+                    }
                     return Err(match records.ending() {
                         Ending::Damaged(why) => LogError::NotAFlight(why),
                         _ if identity.is_some() => no_flight("it ends before the first state"),
@@ -180,6 +214,11 @@ impl FlightReader {
     /// # Errors
     /// When the messages do not make a flight: out of order, missing, or of another layout.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
+        if self.until_tick.is_some_and(|until| self.last.0 >= until) {
+            // As far as it was wanted, it is whole.
+            self.ending = Some(Ending::Closed);
+            return Ok(None);
+        }
         loop {
             let Some(item) = self.records.next() else {
                 self.ending = Some(self.end()?);
@@ -213,6 +252,7 @@ impl FlightReader {
                 TIMING => self.timings.push(cdr::decode(&data)?),
                 EVENTS => self.happenings.push(cdr::decode(&data)?),
                 view::LOG => self.remarks.push(view::remark(&data)?),
+                OUTPUTS if self.keep_outputs => self.outputs.push(cdr::decode(&data)?),
                 _ => {}
             }
         }
@@ -239,7 +279,8 @@ impl FlightReader {
             return Ok(Ending::Truncated);
         }
         // When the chain says that the flight is what was flown, it is something beside it.
-        if self.unbroken && closing.messages != self.records.roll_call.digest() {
+        let all_read = self.unbroken && !self.records.sought;
+        if all_read && closing.messages != self.records.roll_call.digest() {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, or the order \
                  or time of any) is not as written, though every checksum is right: a tool that \
@@ -278,6 +319,77 @@ impl FlightReader {
         Ok(Tick { events, inputs, record, state_message, chained })
     }
 
+    /// Begins at the recorded state of a tick, found by the log's index where it has one.
+    ///
+    /// # Errors
+    /// [`LogError::Outside`], or what is wrong with the log up to there.
+    pub fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        let first = self.initial.tick;
+        if tick == self.last.0 {
+            return Ok(());
+        }
+        if tick < self.last.0 {
+            return Err(LogError::Outside { tick, first, last: self.last_tick() });
+        }
+        self.records.seek(tick)?;
+        self.pending = Pending::default();
+        loop {
+            match self.records.next() {
+                Some(Item::Message(Message { topic, data, .. })) if topic == STATE => {
+                    // Of all the states that are passed by, only the tick is looked at.
+                    let found = cdr::word(&data, 1).unwrap_or(0);
+                    if found > tick {
+                        return Err(LogError::Order(format!("tick {tick} is not there")));
+                    }
+                    self.last.0 = found;
+                    if found == tick {
+                        let record: StateRecord = cdr::decode(&data)?;
+                        self.initial = record.state;
+                        self.chain = Chain::from(record.digest);
+                        self.last = (tick, record.digest);
+                        return Ok(());
+                    }
+                }
+                Some(Item::Metadata(name, facts)) if name == CLOSING => {
+                    self.closing = last_word(&facts);
+                }
+                Some(_) => {}
+                None => {
+                    return Err(match self.records.ending() {
+                        Ending::Damaged(why) => LogError::Order(format!("damaged: {why}")),
+                        _ => LogError::Outside { tick, first, last: self.last_tick() },
+                    });
+                }
+            }
+        }
+    }
+
+    /// The last tick as the writer closed the log, or as far as it was read.
+    fn last_tick(&self) -> u64 {
+        self.closing.map_or(self.last.0, |closing| closing.last.0.max(self.last.0))
+    }
+
+    /// Digest of the state that was read last; at first, of the state at the start.
+    pub fn digest(&self) -> u64 {
+        self.last.1
+    }
+
+    /// Whether the last state is as it was recorded. In a compacted log, states between keyframes are
+    /// flown again.
+    pub fn is_recorded(&self) -> bool {
+        self.records.expander.as_ref().is_none_or(|expander| expander.recorded)
+    }
+
+    /// In a compacted log, the last tick as it was flown again while reading.
+    pub fn flown(&self) -> Option<(&State, &Outputs)> {
+        self.records.expander.as_ref()?.flown()
+    }
+
+    /// Whether the log is compacted.
+    pub fn is_compacted(&self) -> bool {
+        self.records.expander.is_some()
+    }
+
     /// What no checksum found and is not as written, so far.
     pub fn oddity(&self) -> Option<&str> {
         self.records.oddity.as_deref()
@@ -292,6 +404,7 @@ impl FlightReader {
     pub fn forget(&mut self) {
         self.timings.clear();
         self.happenings.clear();
+        self.outputs.clear();
         self.remarks.clear();
     }
 
@@ -301,9 +414,14 @@ impl FlightReader {
     }
 }
 
+/// So many ticks after a state, viewers' messages of its tick are written, too.
+const PAST_TICKS: u64 = 2500;
+
 /// Every message of a log as it stands there, whatever its channel.
 pub struct Messages {
     records: Records,
+    from_tick: u64,
+    until_tick: u64,
 }
 
 /// One message.
@@ -325,8 +443,27 @@ impl Messages {
     /// # Errors
     /// When the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        Ok(Self { records: Records::new(file) })
+        Ok(Self { records: Records::open(path, None)?, from_tick: 0, until_tick: u64::MAX })
+    }
+
+    /// Opens a log, compacted or not.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Ok(Self { records: Records::open(path, Some(open))?, from_tick: 0, until_tick: u64::MAX })
+    }
+
+    /// Only the messages from one tick to another; those before are not read where the log's index
+    /// says where they are.
+    ///
+    /// # Errors
+    /// When the log cannot be read.
+    pub fn limit(&mut self, from_tick: u64, until_tick: u64) -> Result<(), LogError> {
+        (self.from_tick, self.until_tick) = (from_tick, until_tick);
+        // The channels are defined before the first message.
+        while self.records.topics.is_empty() && self.records.next().is_some() {}
+        if from_tick > 0 { self.records.seek(from_tick) } else { Ok(()) }
     }
 
     /// How the file ends, once the last message has been read.
@@ -341,7 +478,14 @@ impl Iterator for Messages {
     fn next(&mut self) -> Option<Message> {
         loop {
             if let Item::Message(message) = self.records.next()? {
-                return Some(message);
+                let tick = message.time_ns / engine::STEP_NS;
+                // What viewers draw is written after the states, but not ten seconds after.
+                if tick > self.until_tick.saturating_add(PAST_TICKS) {
+                    return None;
+                }
+                if (self.from_tick..=self.until_tick).contains(&tick) {
+                    return Some(message);
+                }
             }
         }
     }
@@ -375,21 +519,21 @@ fn no_flight(why: &str) -> LogError {
 
 /// With what the writer closed the log.
 #[derive(Clone, Copy, Debug)]
-struct LastWord {
+pub(crate) struct LastWord {
     /// Tick and digest of the last state.
-    last: (u64, u64),
+    pub last: (u64, u64),
     /// Roll call of all messages.
     messages: u64,
 }
 
-fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
+pub(crate) fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
     let number = |key| facts.get(key).and_then(|text| text.parse().ok());
     let last = number(CLOSING_TICK).zip(number(CLOSING_DIGEST))?;
     let word = LastWord { last, messages: number(CLOSING_MESSAGES)? };
     is_whole(facts).then_some(word)
 }
 
-fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
+pub(crate) fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
     let known = [
         (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
         (Identity::MODEL, "flight model", engine::MODEL_VERSION),
@@ -422,6 +566,8 @@ enum Part {
 
 /// Records of the file, up to its end or the first damage.
 struct Records {
+    /// Where it is, if it is a file.
+    path: Option<PathBuf>,
     source: BufReader<Box<dyn Read + Send>>,
     reader: LinearReader,
     /// The last bytes that were read.
@@ -433,19 +579,56 @@ struct Records {
     /// The first thing that no checksum found and that is not as written.
     oddity: Option<String>,
     ending: Ending,
+    /// Makes the records of a compacted log.
+    expander: Option<Box<Expander>>,
+    /// Reading went on somewhere else in the file.
+    sought: bool,
+    /// What is no damage: a log that is not for this program.
+    refused: Option<LogError>,
 }
 
 impl Records {
+    /// Opens a log; one that is compacted only if its states can be flown again.
+    fn open(path: &Path, open: Option<Open>) -> Result<Self, LogError> {
+        let file = File::open(path).map_err(LogError::Open)?;
+        if file.metadata().map_err(LogError::Open)?.is_dir() {
+            return Err(LogError::NotAFlight("a folder".into()));
+        }
+        let mut records = Self { path: Some(path.into()), ..Self::new(file) };
+        let nobody: Open = |_| Err(LogError::Compacted);
+        if let Some(expander) = Expander::open(path, open.unwrap_or(nobody), false)? {
+            if open.is_none() {
+                return Err(LogError::Compacted);
+            }
+            records.expander = Some(Box::new(expander));
+        }
+        Ok(records)
+    }
+
+    /// Goes where the state of a tick is not far ahead, if the log's index says where.
+    fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        self.sought = true;
+        if let Some(expander) = &mut self.expander {
+            return expander.seek(tick);
+        }
+        let Some(path) = &self.path else { return Ok(()) };
+        let Some(index) = Index::read(path) else { return Ok(()) };
+        let Some(place) = index.chunk_of(tick).filter(|&place| place > 0) else { return Ok(()) };
+        let mut file = File::open(path).map_err(LogError::Open)?;
+        file.seek(SeekFrom::Start(index.chunks[place].offset))?;
+        self.source = BufReader::with_capacity(BUFFER_BYTES, Box::new(file));
+        // Chunks keep their own checksums; that of the whole file cannot be looked at any more.
+        let options = options().with_skip_start_magic(true).with_validate_data_section_crc(false);
+        self.reader = LinearReader::new_with_options(options);
+        self.part = Part::Data;
+        Ok(())
+    }
+
     fn new(source: impl Read + Send + 'static) -> Self {
-        let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_validate_data_section_crc(true)
-            .with_validate_summary_section_crc(true)
-            .with_check_finishes_after_end_magic(true)
-            .with_record_length_limit(RECORD_BYTES_MAX);
         Self {
+            path: None,
             source: BufReader::with_capacity(BUFFER_BYTES, Box::new(source)),
-            reader: LinearReader::new_with_options(options),
+            reader: LinearReader::new_with_options(options()),
             tail: Vec::with_capacity(2 * mcap::MAGIC.len()),
             part: Part::Start,
             schemas: BTreeMap::new(),
@@ -453,6 +636,9 @@ impl Records {
             roll_call: RollCall::default(),
             oddity: None,
             ending: Ending::Closed,
+            expander: None,
+            sought: false,
+            refused: None,
         }
     }
 
@@ -468,6 +654,9 @@ impl Records {
         if self.ending != Ending::Closed {
             return None;
         }
+        if self.expander.is_some() {
+            return self.expanded();
+        }
         match self.read() {
             Ok(item) => item,
             Err(McapError::BadMagic | McapError::UnexpectedEof) if self.part == Part::Start => {
@@ -481,6 +670,49 @@ impl Records {
             Err(error) => {
                 self.ending = Ending::Damaged(in_words(&error));
                 None
+            }
+        }
+    }
+
+    /// The next record of a compacted log.
+    fn expanded(&mut self) -> Option<Item> {
+        let expander = self.expander.as_mut()?;
+        loop {
+            match expander.next() {
+                Ok(Some(Raw::Channel(channel))) => {
+                    self.topics.insert(channel.id, channel.topic);
+                }
+                Ok(Some(Raw::Message(header, data))) => {
+                    if let Some(topic) = self.topics.get(&header.channel_id) {
+                        let stamp = Stamp {
+                            sequence: header.sequence,
+                            log_time_ns: header.log_time,
+                            publish_time_ns: header.publish_time,
+                        };
+                        self.roll_call.add(topic, stamp, &data);
+                        let (topic, time_ns) = (topic.clone(), header.log_time);
+                        return Some(Item::Message(Message { topic, time_ns, data, stamp }));
+                    }
+                }
+                Ok(Some(Raw::Metadata(record))) => {
+                    return Some(Item::Metadata(record.name, record.metadata));
+                }
+                Ok(Some(Raw::Attachment(header, data))) => {
+                    return Some(Item::Attachment(header.name, data));
+                }
+                Ok(Some(_)) => {}
+                Ok(None) => return None,
+                Err(LogError::Mcap(McapError::UnexpectedEof)) => {
+                    self.ending = Ending::Truncated;
+                    return None;
+                }
+                Err(error) => {
+                    self.ending = Ending::Damaged(error.to_string());
+                    if matches!(error, LogError::Version { .. } | LogError::Setup(_)) {
+                        self.refused = Some(error);
+                    }
+                    return None;
+                }
             }
         }
     }
@@ -630,4 +862,13 @@ fn in_words(error: &McapError) -> String {
         error => return error.to_string(),
     };
     format!("{what} is not as written ({error})")
+}
+
+fn options() -> LinearReaderOptions {
+    LinearReaderOptions::default()
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_data_section_crc(true)
+        .with_validate_summary_section_crc(true)
+        .with_check_finishes_after_end_magic(true)
+        .with_record_length_limit(RECORD_BYTES_MAX)
 }

@@ -5,7 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek};
 use std::path::Path;
 
-use engine::frames::{Attitude, Vec3};
+use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Outputs, State};
 use mcap::records::MessageHeader;
@@ -27,7 +27,7 @@ use crate::view::{self, Level};
 use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
-const CHUNK_BYTES: u64 = 128 * 1024;
+pub(crate) const CHUNK_BYTES: u64 = 128 * 1024;
 /// The longest text that fits into a log, with room for its record's frame.
 const TEXT_BYTES_MAX: usize = RECORD_BYTES_MAX - 1024;
 /// Ticks between frames, stick positions and joints for viewers: 50 Hz.
@@ -65,8 +65,7 @@ pub struct FlightWriter {
     begun: bool,
     last_tick: u64,
     message: Vec<u8>,
-    pivot_m: Vec3<engine::frames::Structural>,
-    mast_m: f64,
+    shape: view::Shape,
 }
 
 /// How a log ended.
@@ -93,15 +92,15 @@ impl FlightWriter {
         force: bool,
     ) -> Result<Self, LogError> {
         let mut writer = Self::begin(path, setup, identity, force)?;
-        writer.pivot_m = aircraft.rotors.pivot_m;
-        writer.mast_m = aircraft.rotors.mast_length_m;
+        writer.shape = view::Shape::of(aircraft);
         let text = cdr::encode_view(&view::Text { data: robot_description })?;
-        writer.put(writer.channels.description, 0, &text)?;
+        writer.put(writer.channels.description, initial.tick, &text)?;
         let digest = first_digest(&setup.files(), &cdr::encode(initial)?);
         writer.chain = Chain::from(digest);
         writer.last_tick = initial.tick;
         writer.begun = true;
-        writer.record(writer.channels.state, 0, &StateRecord { digest, state: *initial })?;
+        let first = StateRecord { digest, state: *initial };
+        writer.record(writer.channels.state, initial.tick, &first)?;
         writer.flush()?;
         Ok(writer)
     }
@@ -180,8 +179,7 @@ impl FlightWriter {
             begun: false,
             last_tick: 0,
             message: Vec::with_capacity(8192),
-            pivot_m: Vec3::default(),
-            mast_m: 0.0,
+            shape: view::Shape::default(),
         })
     }
 
@@ -284,21 +282,20 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn view(&mut self, outputs: &Outputs, attitude: Attitude) -> Result<(), LogError> {
         let tick = outputs.tick;
-        if tick.is_multiple_of(OUTPUT_TICKS) {
-            self.record(self.channels.outputs, tick, outputs)?;
-        }
-        if tick.is_multiple_of(VIEW_TICKS) {
-            let pivot = self.pivot_m.from_cg(outputs.balance.cg_m);
-            let tf = cdr::encode_view(&view::tf(outputs, attitude, pivot, self.mast_m))?;
-            self.put(self.channels.tf, tick, &tf)?;
-            let joy = cdr::encode_view(&view::joy(outputs))?;
-            self.put(self.channels.joy, tick, &joy)?;
-            let joints = cdr::encode_view(&view::joint_states(outputs))?;
-            self.put(self.channels.joints, tick, &joints)?;
-        }
-        if tick.is_multiple_of(FIX_TICKS) {
-            let fix = cdr::encode_view(&view::fix(outputs))?;
-            self.put(self.channels.fix, tick, &fix)?;
+        let channels = &self.channels;
+        let due = [
+            (channels.outputs, OUTPUTS, OUTPUT_TICKS),
+            (channels.tf, view::TF, VIEW_TICKS),
+            (channels.joy, view::JOY, VIEW_TICKS),
+            (channels.joints, view::JOINT_STATES, VIEW_TICKS),
+            (channels.fix, view::FIX, FIX_TICKS),
+        ];
+        for (channel, topic, ticks) in due {
+            if tick.is_multiple_of(ticks)
+                && let Some(message) = view::message(topic, outputs, attitude, &self.shape)?
+            {
+                self.put(channel, tick, &message)?;
+            }
         }
         Ok(())
     }

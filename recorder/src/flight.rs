@@ -7,7 +7,7 @@ use std::sync::mpsc;
 
 use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
-use engine::{Aircraft, Inputs, Outputs, STEP_NS, step};
+use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, step};
 use flightgear::Link;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{Closed, FlightWriter, Identity, LogError, Setup};
@@ -187,7 +187,7 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
         &state,
         flight.force,
     )?;
-    let mut crew = Crew { hands: flight.hands, world, phase: (0, ""), done: false };
+    let mut crew = Crew::new(flight.hands, world);
     let (tell, told) = mpsc::channel();
     let mut recording = Recording::start(writer, &state, told);
     let found = Arc::clone(&progress.mismatches);
@@ -195,11 +195,7 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
         flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
     let refused = if flight.real_time { claim_real_time() } else { Vec::new() };
 
-    let mut outputs = {
-        // The hands see the aircraft as it stands before the first tick.
-        let inputs = Inputs { events: &[], world: World { paused: 1, ..world } };
-        Outputs { tick: 0, ..step(&aircraft, &state, &inputs).1 }
-    };
+    let mut outputs = crew.first_look(&aircraft, &state);
     recording.show(&outputs, state.plant.attitude);
     let mut statistics = Statistics::new();
     let mut events: Vec<DeviceEvent> = Vec::with_capacity(EVENTS_A_TICK);
@@ -297,16 +293,27 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
 }
 
 /// All hands, and what they hold on to between ticks.
-struct Crew {
+pub(crate) struct Crew {
     hands: Vec<Box<dyn Hands>>,
-    world: World,
-    phase: (u64, &'static str),
-    done: bool,
+    pub(crate) world: World,
+    pub(crate) phase: (u64, &'static str),
+    pub(crate) done: bool,
 }
 
 impl Crew {
+    /// Hands that have touched nothing yet.
+    pub(crate) fn new(hands: Vec<Box<dyn Hands>>, world: World) -> Self {
+        Self { hands, world, phase: (0, ""), done: false }
+    }
+
+    /// What the hands see before the first tick: the aircraft as it is.
+    pub(crate) fn first_look(&self, aircraft: &Aircraft, state: &State) -> Outputs {
+        let inputs = Inputs { events: &[], world: World { paused: 1, ..self.world } };
+        Outputs { tick: state.tick, ..step(aircraft, state, &inputs).1 }
+    }
+
     /// Lets every hand act; returns the phase if it changed.
-    fn act(
+    pub(crate) fn act(
         &mut self,
         tick: u64,
         seen: &Outputs,

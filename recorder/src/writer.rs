@@ -15,10 +15,9 @@ use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
 use logs::records::{Happening, InputsRecord, TimingRecord};
 use logs::view::Level;
-use logs::{Closed, FlightWriter, LogError};
+use logs::{Closed, FlightWriter, LogError, Narrator};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
-use crate::narrator::Narrator;
 use crate::self_check::Mismatch;
 
 /// Items the ring holds: three a tick, twenty seconds and some.
