@@ -80,6 +80,8 @@ pub struct FlightReader {
     pending: Pending,
     /// Tick and digest of the last state read.
     last: (u64, u64),
+    /// Whether every digest so far follows from the one before.
+    unbroken: bool,
     /// The writer's last word.
     closing: Option<LastWord>,
     /// Events in the order they were recorded.
@@ -179,6 +181,7 @@ impl FlightReader {
                         initial: first.state,
                         until_tick: None,
                         intact: digest == first.digest,
+                        unbroken: digest == first.digest,
                         chain: Chain::from(first.digest),
                         pending: Pending::default(),
                         last: (first.state.tick, first.digest),
@@ -275,8 +278,9 @@ impl FlightReader {
         if closing.last != self.last {
             return Ok(Ending::Truncated);
         }
-        // The chain says that the flight is what was flown: it is something beside it.
-        if !self.records.sought && closing.messages != self.records.roll_call.digest() {
+        // When the chain says that the flight is what was flown, it is something beside it.
+        let all_read = self.unbroken && !self.records.sought;
+        if all_read && closing.messages != self.records.roll_call.digest() {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, or the order \
                  or time of any) is not as written, though every checksum is right: a tool that \
@@ -308,6 +312,7 @@ impl FlightReader {
         let mut state_message = cdr::HEADER.to_vec();
         state_message.extend_from_slice(&data[cdr::HEADER.len() + size_of::<u64>()..]);
         let chained = self.chain.close(&state_message) == record.digest;
+        self.unbroken &= chained;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
         self.last = (tick, record.digest);
