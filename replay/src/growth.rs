@@ -7,7 +7,7 @@ use engine::{STEP_S, State};
 use logs::LogError;
 use logs::units::unit_of;
 
-use crate::compare::Names;
+use crate::compare::{Names, group_of};
 use crate::divergence::when;
 
 /// When it is looked at, in seconds after the first difference.
@@ -50,9 +50,9 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// The quantity that is most representable numbers apart.
-    pub fn farthest(&self) -> Option<&GroupDifference> {
-        self.groups.iter().max_by_key(|group| group.ulps)
+    /// A quantity, if it differs.
+    pub fn group(&self, group: &str) -> Option<&GroupDifference> {
+        self.groups.iter().find(|known| known.group == group)
     }
 }
 
@@ -62,6 +62,8 @@ pub struct Growth {
     names: Names,
     /// The first difference.
     pub first_tick: u64,
+    /// The quantity in which it is.
+    pub first_group: String,
     /// The last tick compared.
     pub last_tick: u64,
     /// How many ticks differ, of those compared.
@@ -75,14 +77,16 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Of flights that are the same until `first_tick`, whose states are added from there on.
+    /// Of flights that are the same until `first_tick`, where the field at `path` is the first that
+    /// differs; their states are added from there on.
     ///
     /// # Errors
     /// Never: a state is recordable.
-    pub fn new(first_tick: u64) -> Result<Self, LogError> {
+    pub fn new(first_tick: u64, path: &str) -> Result<Self, LogError> {
         Ok(Self {
             names: Names::of::<State>()?,
             first_tick,
+            first_group: group_of(path),
             last_tick: first_tick,
             differing_ticks: 0,
             same_from: None,
@@ -215,7 +219,7 @@ mod tests {
 
     /// Velocities that part with a doubling time of half a second.
     fn parting(ticks: u64) -> Growth {
-        let mut growth = Growth::new(100).expect("recordable");
+        let mut growth = Growth::new(100, "plant.velocity_mps.y").expect("recordable");
         let a = cdr::encode(&State::default()).expect("bytes");
         for tick in 100..100 + ticks {
             let mut state = State::default();
