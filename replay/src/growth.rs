@@ -182,19 +182,16 @@ impl fmt::Display for Growth {
         write!(f, "  growth")?;
         line(f, "after", &|moment| format!("{} s", moment.after_s))?;
         line(f, "fields that differ", &|moment| moment.fields.to_string())?;
-        line(f, "most apart, ULP", &|moment| {
-            let farthest = moment.farthest().map_or(0, |group| group.ulps);
-            if farthest < 1_000_000 {
-                farthest.to_string()
-            } else {
-                format!("{:.1e}", farthest as f64)
-            }
+        line(f, &format!("{}, ULP", self.first_group), &|moment| {
+            let ulps = moment.group(&self.first_group).map_or(0, |group| group.ulps);
+            if ulps < 1_000_000 { ulps.to_string() } else { format!("{:.1e}", ulps as f64) }
         })?;
-        for group in SHOWN {
+        let first = Some(self.first_group.as_str()).filter(|first| !SHOWN.contains(first));
+        for group in first.into_iter().chain(SHOWN) {
             let unit = unit_of(group);
             let name = if unit.is_empty() { group.to_string() } else { format!("{group}, {unit}") };
             line(f, &name, &|moment| {
-                let found = moment.groups.iter().find(|known| known.group == group);
+                let found = moment.group(group);
                 found.map_or("0".into(), |found| format!("{:.2e}", found.absolute))
             })?;
         }
