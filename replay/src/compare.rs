@@ -113,7 +113,7 @@ fn value(kind: Value, word: &[u8]) -> Value {
 }
 
 /// A path without axes and sides.
-fn group_of(path: &str) -> String {
+pub(crate) fn group_of(path: &str) -> String {
     const PARTS: [&str; 8] = ["x", "y", "z", "w", "left", "right", "nose", "main"];
     path.split('.').filter(|part| !PARTS.contains(part)).collect::<Vec<_>>().join(".")
 }
