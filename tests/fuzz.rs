@@ -259,7 +259,7 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
     let (broken, fixed) = (place.join("broken.mcap"), place.join("fixed.mcap"));
     fuzz("forged", 300, forged, |bytes| {
         fs::write(&broken, bytes).expect("a file");
-        let verdict = verify(&broken, |_| {});
+        let verdict = verify(&broken, &replay::Options::default(), |_| {});
         if verdict.as_ref().is_ok_and(|verdict| verdict.outcome() == Outcome::Exact) {
             assert!(flight(&Forgery::of(&broken)) == flight(&whole), "accepted");
         }
