@@ -52,7 +52,7 @@ fn recovered(broken: &Path, fixed: &Path) -> Result<usize, String> {
     }
     let (tick, verdict) = (kept.len(), verify(fixed));
     let honest = verdict.status == Some(INCOMPLETE)
-        && verdict.out.contains(&format!("exact up to tick {tick} ("))
+        && verdict.out.contains(&format!("exact up to tick {tick} of {tick} or more ("))
         && verdict.out.contains("it was recovered from ")
         && !verdict.out.contains("damaged");
     if honest { Ok(tick) } else { Err(format!("{said}\n{verdict}")) }
