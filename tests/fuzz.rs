@@ -21,7 +21,7 @@ use logs::records::{EVENTS, HARDWARE, INPUTS, OUTPUTS, STATE, TIMING};
 use logs::{Ending, FlightReader, LogError, Messages};
 use recorder::script::Script;
 use recorder::{Hands, Reach};
-use replay::{Outcome, verify};
+use replay::{Options, Outcome, verify};
 
 /// Longer than this for one input is a hang, on however busy a machine.
 const HANG: Duration = Duration::from_secs(20);
@@ -259,7 +259,7 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
     let (broken, fixed) = (place.join("broken.mcap"), place.join("fixed.mcap"));
     fuzz("forged", 300, forged, |bytes| {
         fs::write(&broken, bytes).expect("a file");
-        let verdict = verify(&broken, &replay::Options::default(), |_| {});
+        let verdict = verify(&broken, &Options::default(), |_| {});
         if verdict.as_ref().is_ok_and(|verdict| verdict.outcome() == Outcome::Exact) {
             assert!(flight(&Forgery::of(&broken)) == flight(&whole), "accepted");
         }
@@ -276,6 +276,68 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
     for topic in [TIMING, EVENTS, OUTPUTS] {
         assert!(!whole.places(topic).is_empty(), "{topic}: the seed has all channels");
     }
+}
+
+/// The aircraft of a log, for compacted ones.
+fn flown(setup: &logs::Setup) -> Result<logs::compact::Flown, LogError> {
+    let refused = |error: aircraft::ConfigError| LogError::NotAFlight(error.to_string());
+    let mut aircraft =
+        aircraft::aircraft("aircraft.toml", &setup.aircraft_toml).map_err(refused)?;
+    aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml).map_err(refused)?;
+    let start = aircraft::start("scenario.toml", &setup.scenario_toml).map_err(refused)?;
+    Ok(logs::compact::Flown { aircraft, world: start.world.world() })
+}
+
+#[test]
+fn no_bytes_of_a_log_break_looking_things_up_in_it() {
+    let (log, _) = small_log("fuzz-places");
+    let file = folder("fuzz-places-logs").join("places.mcap");
+    // The index is at the end: half of the changes are there.
+    let make = |dice: &mut Dice| {
+        let from = if dice.below(2) == 0 { 0 } else { log.len() - log.len() / 8 };
+        [&log[..from], &mutated(&log[from..], dice)].concat()
+    };
+    fuzz("places", 1500, make, |bytes| {
+        fs::write(&file, bytes).expect("a file");
+        let _ = logs::closing(&file);
+        let _ = logs::marker(&file, 1).map_err(|error| error.to_string());
+        if let Ok(mut reader) = FlightReader::open(&file) {
+            let sought = reader.seek(30);
+            if sought.is_ok() && reader.intact {
+                while let Ok(Some(tick)) = reader.next_tick() {
+                    if !tick.chained {
+                        break;
+                    }
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn no_bytes_of_a_compacted_log_break_its_reader() {
+    let (_, log) = small_log("fuzz-compacted");
+    let place = folder("fuzz-compacted-logs");
+    let (compacted, file) = (place.join("compacted.mcap"), place.join("broken.mcap"));
+    logs::compact::compact(&log, &compacted, true, 10, flown, |_| {}).expect("compacted");
+    let bytes = fs::read(&compacted).expect("a log");
+    // Most of it is the aircraft: half of the changes are after that.
+    let flight = bytes.len() - bytes.len() / 4;
+    let make = |dice: &mut Dice| {
+        let from = if dice.below(2) == 0 { 0 } else { flight };
+        [&bytes[..from], &mutated(&bytes[from..], dice)].concat()
+    };
+    fuzz("compacted", 300, make, |broken| {
+        fs::write(&file, broken).expect("a file");
+        let Ok(mut reader) = FlightReader::open_any(&file, flown) else { return };
+        let (mut ticks, mut whole) = (0, reader.intact);
+        while let Ok(Some(tick)) = reader.next_tick() {
+            ticks += 1;
+            whole &= tick.chained;
+        }
+        let closed = whole && ticks == 50 && reader.ending() == Some(&Ending::Closed);
+        assert!(!closed || broken == bytes, "accepted");
+    });
 }
 
 #[test]

@@ -17,7 +17,7 @@ use crate::compact::Open;
 use crate::compact::expander::Expander;
 use crate::fields::{Field, fields};
 use crate::index::Index;
-use crate::raw::Raw;
+use crate::raw::{Raw, parse_record};
 use crate::records::{
     Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
     TIMING, TimingRecord, first_digest,
@@ -727,11 +727,7 @@ impl Records {
                     self.reader.notify_read(read);
                 }
                 LinearReadEvent::Record { data, opcode } => {
-                    if opcode == mcap::records::op::ATTACHMENT && !attachment_fits(data) {
-                        self.ending = Ending::Damaged("a file's record is too short for it".into());
-                        return Ok(None);
-                    }
-                    let record = mcap::parse_record(opcode, data)?;
+                    let record = parse_record(opcode, data)?;
                     let part = part_of(&record, self.part);
                     if let Some(what) = misplaced(&record, part, self.part) {
                         self.ending = Ending::Damaged(what);
@@ -793,24 +789,6 @@ impl Records {
         }
         self.topics.insert(channel.id, channel.topic);
     }
-}
-
-/// Whether an attachment's name, media type and checksum lie inside its record: mcap 0.26 takes that
-/// for granted.
-fn attachment_fits(record: &[u8]) -> bool {
-    const TIMES: usize = 2 * size_of::<u64>();
-    const DATA_LENGTH: usize = size_of::<u64>();
-    const CRC: usize = size_of::<u32>();
-    let mut at = TIMES;
-    for _name_and_media_type in 0..2 {
-        let Some(length) = record.get(at..).and_then(|rest| rest.first_chunk()) else {
-            return false;
-        };
-        at = at
-            .saturating_add(size_of::<u32>())
-            .saturating_add(u32::from_le_bytes(*length) as usize);
-    }
-    at.saturating_add(DATA_LENGTH + CRC) <= record.len()
 }
 
 /// Keeps the last bytes, as many as the magic number has.
