@@ -28,6 +28,9 @@
 //!   as an end of lift: Johnson, *Helicopter Theory*, §2-6. Recalled with confidence.
 //! - **LEISHMAN**: Leishman, *Principles of Helicopter Aerodynamics*, 2nd ed. Mean inflow in the vortex
 //!   ring state, a fit to measurements; recalled.
+//! - **TP213477**: Johnson, *Model for Vortex Ring State Influence on Rotor Flight Dynamics*, NASA
+//!   TP-2005-213477, 2005. Where the vortex ring begins to be felt (Vc/vh = -0.2) and where it takes the
+//!   damping of heave away (-0.45); recalled.
 //! - **CORRIGAN**: Corrigan and Schillings, *Empirical Model for Stall Delay due to Rotation*, AHS
 //!   Aeromechanics Specialists Conference, 1994. Rotational stall delay; its constants as Koning, NASA
 //!   CR-2016-219086, has them for this rotor, through a transcription by others.

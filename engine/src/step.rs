@@ -24,6 +24,13 @@ use crate::{
     rotors, weight_balance,
 };
 
+/// Rotor speeds of the data, rad/s: 0.7 of 589 rpm, below the slowest of an aeroplane, to the limit of
+/// 661 rpm.
+const ROTOR_RADPS_MIN: f64 = 43.0;
+const ROTOR_RADPS_MAX: f64 = 69.3;
+/// Turning faster than this is no flight, rad/s.
+const TUMBLING_RADPS: f64 = 3.0;
+
 /// Advances the aircraft by one tick. Same arguments, same bits.
 pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
     let pilot = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
@@ -373,6 +380,11 @@ impl Blocks {
             | flag(validity::HEIGHT, next.plant.origin.height_m - next.plant.position_m.z > 12e3)
             | flag(validity::GEAR_BOTTOMED, bottomed)
             | flag(validity::FROZEN, next.frozen != 0)
+            | flag(
+                validity::ROTOR_SPEED,
+                !(ROTOR_RADPS_MIN..=ROTOR_RADPS_MAX).contains(&next.plant.rotor_speed_radps),
+            )
+            | flag(validity::TUMBLING, next.plant.angular_rate_radps.norm() > TUMBLING_RADPS)
             | flag(validity::HULL, self.height_above_ground_m(next) <= self.hull_height_m)
     }
 }

@@ -69,6 +69,11 @@ impl Reflight {
         Ok(Some(Reflown { recorded, outputs, exact }))
     }
 
+    /// The state after the last tick, as a message.
+    pub fn message(&self) -> &[u8] {
+        &self.message
+    }
+
     /// How the log ends, once it has been flown.
     pub fn ending(&self) -> Ending {
         self.reader.ending().cloned().unwrap_or(Ending::Truncated)

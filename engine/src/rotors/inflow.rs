@@ -7,7 +7,7 @@
 //! M = diag(128/(75π), 64/(45π), 64/(45π))
 //! L0 = [1/2, 0, −bX; 0, 2(1 + X²), 0; bX, 0, 2(1 − X²)]        b = 15π/64, X = tan(χ/2)
 //! V_T = √(μ² + V_m²)     V = (μ² + (Vc + v0)(Vc + 2v0))/V_T, V_T ≤ V ≤ 2V_T
-//! V_m = |Vc + v0|, but v0·g(Vc/v0) where the rotor descends into its wake        [LEISHMAN]
+//! V_m = |Vc + v0|, but v0·g(Vc/v0) where the rotor descends into its wake        [LEISHMAN, TP213477]
 //! v(r, ψ) = G·(κ·(1 + f·s)·(v0 + k·(v_r − v̄_r)) + r/R·(vc·cos ψ + vs·sin ψ))
 //! v_r·(|V| + v_r) = bcΩ·U·cl(r, v_r)/(8π)       annulus by annulus                     [GESSOW]
 //! v̄_r·(|V| + |v̄_r|) = mean over the disc of v_r·(|V| + |v_r|)
@@ -34,8 +34,8 @@
 //! Betz's tip loss is that of the hover, where all that goes through the disc is induced. Counted with
 //! the whole inflow it would take a fifth of the blade as an aeroplane, where annular theory with
 //! Prandtl's factor in the momentum leaves a twentieth; counted with the induced part it takes nothing.
-//! Between hover and the windmill brake state, momentum theory has no answer or three; g is the
-//! measured mean. Its shape over Vc/v0 has one root for every thrust: there is no jump.
+//! Between a slow descent and the windmill brake state, momentum theory has no answer or three; g is
+//! the measured mean. Its shape over Vc/v0 has one root for every thrust: there is no jump.
 
 use serde::{Deserialize, Serialize};
 
@@ -112,13 +112,23 @@ impl Passage {
     }
 }
 
-/// (−Vc/v0, g): Leishman's fit to the measured mean, v0/vh = 1 − 1.125x − 1.372x² − 1.718x³ −
-/// 0.655x⁴ for −2 < x = Vc/vh < 0, as g = (vh/v0)² over Vc/v0. Ends meet momentum theory.
-const DESCENT: [(f64, f64); 10] = [
+/// (−Vc/v0, g): the mean inflow of a descent as g = (vh/v0)² over Vc/v0; x = Vc/vh.
+///
+/// - To x = −0.2 momentum theory, v0/vh = −x/2 + √(x²/4 + 1), here the straight line g = 1 + Vc/v0:
+///   the wake still leaves, and hover is no corner, the rotor damping small motions up and down alike.
+/// - Beyond x = −0.7 Leishman's fit to measurements, v0/vh = 1 − 1.125x − 1.372x² − 1.718x³ − 0.655x⁴
+///   for −2 < x < 0. At hover its slope would be −1.125 against momentum theory's −½: v0 would grow by
+///   more than Vc falls, and a descent that begins would find no damping.
+/// - Between them a smooth step, which takes v0 + Vc to its first minimum near x = −0.45: there the
+///   damping of heave ends, as it does in the flights of helicopters and a tilt-rotor [TP213477].
+const DESCENT: [(f64, f64); 13] = [
     (0.0, 1.0),
-    (0.0909, 0.826),
-    (0.205, 0.672),
-    (0.359, 0.515),
+    (0.181, 0.819),
+    (0.256, 0.729),
+    (0.318, 0.634),
+    (0.369, 0.546),
+    (0.413, 0.473),
+    (0.452, 0.418),
     (0.551, 0.303),
     (0.720, 0.231),
     (0.956, 0.298),
