@@ -18,6 +18,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common)?;
+    plan.flight.self_check = true;
     #[cfg(feature = "rerun")]
     let saved = out.with_extension("rrd");
     #[cfg(feature = "rerun")]

@@ -23,7 +23,6 @@ fn ideal() -> Params {
         blade: blade::Params {
             count: 3.0,
             root_norm: 0.0875,
-            tip_loss_norm: 1.0,
             blade_chord_m: Table1 { x: vec![0.0, 1.0], y: vec![0.3556; 2] },
             twist_rad: Table1 { x: vec![0.0, 1.0], y: vec![15.0 * DEG, -5.0 * DEG] },
             section: section::Params {
@@ -39,6 +38,7 @@ fn ideal() -> Params {
                 },
                 thickness_norm: Table1 { x: ends, y: vec![0.1; section::REGIONS] },
                 table_tip_mach: 0.0,
+                delay_exponent: 0.0,
                 korn_factor: 9.0,
             },
         },
@@ -221,6 +221,21 @@ fn the_disc_lags_a_turning_mast() {
     let expected = -16.0 / (lessened * OMEGA) * 0.2;
     assert!((out.tilt_aft_rad / expected - 1.0).abs() < 0.1, "{} {expected}", out.tilt_aft_rad);
     assert!(out.tilt_outboard_rad < 0.0);
+}
+
+/// Amer's effect: the force leans by 1 − 3/2·k/(1 + k) of the disc's lag, k = aσ/(16·λ0). The blade
+/// that is pitched up to turn the disc has more of its lift in the plane of the disc, the more the
+/// steeper the inflow comes: a loaded proprotor damps little over half of what T·h·16/(γ*Ω) says.
+#[test]
+fn the_force_of_a_turning_rotor_leans_less_than_its_disc() {
+    let params = ideal();
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.motion.angular_rate_radps.y = 0.2;
+    let (state, out) = settled(&params, &inputs);
+    let k = 5.7 * 0.0891 / (16.0 * state.inflow.mean_mps / (OMEGA * params.radius_m));
+    let leans = out.load.force_n.x / (out.thrust_n * -out.tilt_aft_rad);
+    let expected = 1.0 - 1.5 * k / (1.0 + k);
+    assert!((leans / expected - 1.0).abs() < 0.1, "{leans} {expected}");
 }
 
 #[test]
