@@ -145,9 +145,9 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
          Hover, heave: blade elements against momentum have .14 to .20 1/s at this disc loading, whether \
          collective or power stands; .105 is less than either.\n\n\
          Cruise: the flight model's elevator has 7.4 deg/s² per degree, the reference model's tables (2.29 \
-         of lift per rad, KH has the same) 13.5. CR-166536 has a pressure factor of the tail, K_HNU = .8, \
-         which the tail here leaves out because the printouts at 40 to 100 kt do. With it the short period \
-         is 2.1 rad/s at a damping ratio of .48.",
+         of lift per rad, KH has the same) 13.5, or 10.8 with the tail's pressure factor K_HNU = .8 of \
+         CR-166536. Phase, frequency and damping agree; the gain is about 3 dB high throughout, which is \
+         that elevator, or the degrees that the sweep's report calls elevator.",
     );
     let hover = hovering(aircraft);
     let cruise = cruising(aircraft);
