@@ -252,7 +252,8 @@ impl FlightReader {
                 TIMING => self.timings.push(cdr::decode(&data)?),
                 EVENTS => self.happenings.push(cdr::decode(&data)?),
                 view::LOG => self.remarks.push(view::remark(&data)?),
-                OUTPUTS if self.keep_outputs => self.outputs.push(cdr::decode(&data)?),
+                // No flight depends on it: one of another form is none.
+                OUTPUTS if self.keep_outputs => self.outputs.extend(cdr::decode(&data).ok()),
                 _ => {}
             }
         }
@@ -404,7 +405,6 @@ impl FlightReader {
     pub fn forget(&mut self) {
         self.timings.clear();
         self.happenings.clear();
-        self.outputs.clear();
         self.remarks.clear();
     }
 

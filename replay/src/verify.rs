@@ -1,5 +1,6 @@
 //! Does a log refly to the same bits?
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
@@ -145,6 +146,7 @@ pub fn verify(
     };
     let mut last_input = LastInput::new()?;
     let mut watch = Watch::new()?;
+    flight.reader.keep_outputs = true;
     let mut before = flight.state;
     loop {
         let watched = verdict
@@ -154,7 +156,6 @@ pub fn verify(
         let next = if watched {
             flight.next_tick().map(|next| next.map(|next| (next.recorded, Some(next.exact))))
         } else {
-            flight.reader.keep_outputs = false;
             let next = flight.reader.next_tick().map_err(ReplayError::from);
             next.map(|next| next.map(|recorded| (recorded, None)))
         };
@@ -183,7 +184,6 @@ pub fn verify(
                     let input = last_input.told(&flight.aircraft.cockpit);
                     verdict.divergence =
                         Divergence::new(&watch.states, &parted, input)?.map(Box::new);
-                    flight.reader.keep_outputs = true;
                 }
             }
             (Some(divergence), Some(_)) => {
@@ -191,11 +191,14 @@ pub fn verify(
             }
             (_, None) => {}
         }
-        if let (Some(divergence), Some(_)) = (&mut verdict.divergence, exact) {
-            // What blocks gave is recorded after the state: it is that of the tick before.
+        if let Some(divergence) = &mut verdict.divergence {
+            if exact.is_some() {
+                watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
+            }
             watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
-            watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
         }
+        // What blocks gave stands some way behind the states in the file, or before them.
+        flight.reader.outputs.retain(|outputs| outputs.tick > tick);
         before = recorded.record.state;
         flight.reader.forget();
         progress(verdict.ticks);
@@ -217,13 +220,17 @@ fn recovered(identity: &Identity) -> Option<String> {
 struct Watch {
     states: Names,
     blocks: Names,
-    /// What the last one gave.
-    outputs: Option<Outputs>,
+    /// What they gave, until it is found in the log.
+    outputs: BTreeMap<u64, Outputs>,
 }
 
 impl Watch {
     fn new() -> Result<Self, LogError> {
-        Ok(Self { states: Names::of::<State>()?, blocks: Names::of::<Outputs>()?, outputs: None })
+        Ok(Self {
+            states: Names::of::<State>()?,
+            blocks: Names::of::<Outputs>()?,
+            outputs: BTreeMap::new(),
+        })
     }
 
     fn step(
@@ -235,16 +242,21 @@ impl Watch {
     ) -> Result<(), LogError> {
         let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
         let (stepped, outputs) = step(aircraft, before, &inputs);
-        self.outputs = Some(outputs);
+        if single.block.is_none() {
+            self.outputs.insert(outputs.tick, outputs);
+        }
         single.add(&self.states, &recorded.state_message, &cdr::encode(&stepped)?);
         Ok(())
     }
 
-    fn outputs(&self, recorded: &[Outputs], single: &mut SingleSteps) -> Result<(), LogError> {
-        let Some(stepped) = &self.outputs else { return Ok(()) };
-        if let Some(recorded) = recorded.iter().find(|recorded| recorded.tick == stepped.tick) {
-            let (recorded, of_step) = (cdr::encode(recorded)?, cdr::encode(stepped)?);
-            single.add_outputs(&self.blocks, stepped.tick, &recorded, &of_step);
+    fn outputs(&mut self, recorded: &[Outputs], single: &mut SingleSteps) -> Result<(), LogError> {
+        for recorded in recorded {
+            if let Some(stepped) = self.outputs.remove(&recorded.tick)
+                && single.block.is_none()
+            {
+                let (recorded, of_step) = (cdr::encode(recorded)?, cdr::encode(&stepped)?);
+                single.add_outputs(&self.blocks, stepped.tick, &recorded, &of_step);
+            }
         }
         Ok(())
     }
