@@ -135,7 +135,8 @@ fn a_log_that_lacks_a_message_is_recovered_up_to_there() {
 #[test]
 fn what_other_tools_repaired_beside_the_flight_is_named_and_the_flight_is_kept() {
     let place = folder("recover-beside");
-    let cases: [(&str, &dyn Fn(&mut Forgery)); 4] = [
+    type Repair<'a> = &'a dyn Fn(&mut Forgery);
+    let cases: [(&str, Repair); 4] = [
         ("timing", &|log| log.bytes(TIMING, 100)[place_of::<TimingRecord>("step_ns")] ^= 1),
         ("viewers", &|log| log.bytes(OUTPUTS, 10)[40] ^= 1),
         ("time", &|log| {
@@ -203,7 +204,8 @@ fn a_recovered_log_is_a_proper_file_whose_flight_is_not_whole() {
     let bytes = fs::read(&fixed).expect("a log");
     let summary = mcap::Summary::read(&bytes).expect("an index").expect("an index");
     let messages = mcap::MessageStream::new(&bytes).expect("an MCAP file");
-    let count = messages.map(|message| message.expect("a message")).count() as u64;
+    let messages: Vec<_> = messages.map(|message| message.expect("a message")).collect();
+    let count = messages.len() as u64;
     assert_eq!(summary.stats.expect("statistics").message_count, count);
     // Recovered twice, it is the same flight, and says where it is from.
     let cut = place.join("cut again.mcap");

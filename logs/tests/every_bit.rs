@@ -171,7 +171,7 @@ fn every_bit(log: &[u8], judge: impl Fn(usize, Vec<u8>) -> Option<String> + Sync
                         let what = format!("bit {} of byte {}: {what}", bit % 8, bit / 8);
                         wrong.lock().expect("the list").push(what);
                     }
-                    if bit % 1024 == 0 {
+                    if bit.is_multiple_of(1024) {
                         let more_kib = peak_kib().saturating_sub(before_kib);
                         assert!(more_kib < MEMORY_KIB_MAX, "{more_kib} KiB, near bit {bit}");
                     }
