@@ -1,12 +1,14 @@
 //! `tiltrotor log`.
 
-use std::io::{self, BufWriter, Write};
+mod cat;
+mod export;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
-use logs::{Ending, FlightReader, LogError, Messages};
+use logs::{Ending, FlightReader, LogError};
 use recorder::statistics::Statistics;
 
 use crate::report;
@@ -20,20 +22,17 @@ pub enum Command {
         log: PathBuf,
     },
     /// Every recorded number of a log, a line of JSON a message, units in the names
-    Cat {
-        /// The log
-        log: PathBuf,
-        /// Only this channel (/state, /inputs, /hardware, /timing, /events, /outputs)
-        #[arg(long)]
-        topic: Option<String>,
-    },
+    Cat(cat::Args),
+    /// Logs as tables, CSV or Parquet, units in the columns' names: a folder a channel, a file a flight
+    Export(export::Args),
 }
 
 /// Carries it out.
 pub fn run(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Info { log } => info(log),
-        Command::Cat { log, topic } => cat(log, topic.as_deref()),
+        Command::Cat(args) => cat::run(args),
+        Command::Export(args) => export::run(args),
     }
 }
 
@@ -85,37 +84,4 @@ fn info(log: &Path) -> Result<ExitCode> {
     };
     say!("  {:<16} {ending}", "end of the log");
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
-}
-
-fn cat(log: &Path, only: Option<&str>) -> Result<ExitCode> {
-    // Whoever closes the pipe early, as `head` does, has seen enough.
-    let mut out = BufWriter::new(io::stdout().lock());
-    let mut messages = Messages::open(log).with_context(|| log.display().to_string())?;
-    for message in &mut messages {
-        if only.is_some_and(|only| only != message.topic) {
-            continue;
-        }
-        let Some(fields) = message.fields() else { continue };
-        let numbers: Vec<_> =
-            fields?.iter().map(|field| format!("\"{}\":{}", field.path, field.value)).collect();
-        let written = writeln!(
-            out,
-            "{{\"topic\":\"{}\",\"time_ns\":{},{}}}",
-            message.topic,
-            message.time_ns,
-            numbers.join(",")
-        );
-        if written.is_err() {
-            return Ok(ExitCode::SUCCESS);
-        }
-    }
-    let _ = out.flush();
-    Ok(match messages.ending() {
-        Ending::Closed => ExitCode::SUCCESS,
-        Ending::Truncated => ExitCode::from(report::NEVER_CLOSED),
-        Ending::Damaged(why) => {
-            complain!("tiltrotor: {}: {why}", log.display());
-            ExitCode::from(report::UNUSABLE)
-        }
-    })
 }

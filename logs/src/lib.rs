@@ -5,7 +5,10 @@
 //! what is recorded, [`view`] what is added for viewers, [`fields`] what a struct's numbers are called.
 
 pub mod cdr;
+pub mod evolution;
+pub mod export;
 pub mod fields;
+pub mod layout;
 mod reader;
 pub mod records;
 pub mod schema;

@@ -4,23 +4,24 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
+use std::sync::Arc;
 
 use engine::inputs::DeviceEvent;
-use engine::{Outputs, State};
+use engine::State;
 use mcap::McapError;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 
-use crate::fields::{Field, fields};
+use crate::fields::Field;
+use crate::evolution::{Difference, Mappings};
+use crate::layout::Layout;
 use crate::records::{
-    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
-    TIMING, TimingRecord, first_digest,
+    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, STATE, StateRecord, TIMING,
+    TimingRecord, first_digest,
 };
 use crate::setup::{CLOSING, CLOSING_DIGEST, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup};
 use crate::view::{self, Remark};
-use crate::{LogError, cdr};
+use crate::{LogError, cdr, schema};
 
 /// No record of a flight is larger than this; a length beyond it is damage, not data.
 const RECORD_BYTES_MAX: usize = 16 << 20;
@@ -34,7 +35,7 @@ pub struct Tick {
     pub inputs: InputsRecord,
     /// The state after it, with its digest.
     pub record: StateRecord,
-    /// The bytes of the state, as recorded.
+    /// The bytes of the state, as recorded: in the log's own layout.
     pub state_message: Vec<u8>,
     /// Whether the digest is the one that follows from the digest before and this tick's messages.
     pub chained: bool,
@@ -62,6 +63,10 @@ pub struct FlightReader {
     pub initial: State,
     /// Whether the files and the state at the start are those of the first digest.
     pub intact: bool,
+    /// The same version of the flight model as this program's.
+    pub same_model: bool,
+    mappings: Mappings,
+    first: Vec<u8>,
     chain: Chain,
     pending: Pending,
     /// Tick and digest of the last state read.
@@ -88,8 +93,23 @@ impl FlightReader {
     /// Opens a log and reads up to the state at the start.
     ///
     /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    /// When the file cannot be read, is not MCAP, is not a flight of ours, or was flown by another
+    /// version of the flight model.
     pub fn open(path: &Path) -> Result<Self, LogError> {
+        let reader = Self::open_across_versions(path)?;
+        if reader.same_model {
+            return Ok(reader);
+        }
+        let theirs = reader.identity.get(Identity::MODEL).into();
+        Err(LogError::Version { what: "flight model", theirs, ours: engine::MODEL_VERSION })
+    }
+
+    /// Opens a log, whatever version of the flight model flew it. Its messages become today's structs
+    /// by the names of their fields; [`FlightReader::differences`] says which ones did not.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    pub fn open_across_versions(path: &Path) -> Result<Self, LogError> {
         let file = File::open(path).map_err(LogError::Open)?;
         if file.metadata().map_err(LogError::Open)?.is_dir() {
             return Err(LogError::NotAFlight("a folder".into()));
@@ -119,18 +139,22 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
-                Some(Item::Message(topic, _, data)) if topic == STATE => {
+                Some(Item::Message(channel, _, data)) if channel.topic == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
                         return Err(no_flight(&format!("{missing} is not in it")));
                     }
-                    refuse_other_versions(&identity)?;
-                    let first: StateRecord = cdr::decode(&data)?;
-                    let digest = first_digest(&setup.files(), &cdr::encode(&first.state)?);
+                    refuse_other_formats(&identity)?;
+                    let mut mappings = Mappings::default();
+                    let first: StateRecord = mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?;
+                    let digest = first_digest(&setup.files(), &without_digest(&data));
                     return Ok(Self {
                         records,
                         setup,
+                        same_model: identity.get(Identity::MODEL) == engine::MODEL_VERSION,
                         identity,
+                        mappings,
+                        first: data,
                         initial: first.state,
                         intact: digest == first.digest,
                         chain: Chain::from(first.digest),
@@ -176,22 +200,22 @@ impl FlightReader {
                 });
                 return Ok(None);
             };
-            let (topic, data) = match item {
-                Item::Message(topic, _, data) => (topic, data),
+            let (channel, data) = match item {
+                Item::Message(channel, _, data) => (channel, data),
                 Item::Metadata(name, facts) if name == CLOSING => {
                     self.closing = last_word(&facts);
                     continue;
                 }
                 Item::Metadata(..) | Item::Attachment(..) => continue,
             };
-            match topic.as_str() {
+            match channel.topic.as_str() {
                 HARDWARE => {
                     self.chain.add(&data);
-                    self.pending.events.push(cdr::decode(&data)?);
+                    self.pending.events.push(self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?);
                 }
                 INPUTS => {
                     self.chain.add(&data);
-                    let inputs: InputsRecord = cdr::decode(&data)?;
+                    let inputs: InputsRecord = self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?;
                     if self.pending.inputs.replace(inputs).is_some() {
                         return Err(LogError::Order(format!(
                             "two inputs before the state of tick {}",
@@ -199,17 +223,17 @@ impl FlightReader {
                         )));
                     }
                 }
-                STATE => return self.close_tick(&data).map(Some),
-                TIMING => self.timings.push(cdr::decode(&data)?),
-                EVENTS => self.happenings.push(cdr::decode(&data)?),
+                STATE => return self.close_tick(&channel, &data).map(Some),
+                TIMING => self.timings.push(self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?),
+                EVENTS => self.happenings.push(self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?),
                 view::LOG => self.remarks.push(view::remark(&data)?),
                 _ => {}
             }
         }
     }
 
-    fn close_tick(&mut self, data: &[u8]) -> Result<Tick, LogError> {
-        let record: StateRecord = cdr::decode(data)?;
+    fn close_tick(&mut self, channel: &Channel, data: &[u8]) -> Result<Tick, LogError> {
+        let record: StateRecord = self.mappings.decode(&channel.topic, channel.layout.as_deref(), data)?;
         let tick = record.state.tick;
         let events = std::mem::take(&mut self.pending.events);
         let inputs = self
@@ -224,14 +248,34 @@ impl FlightReader {
                 events.len()
             )));
         }
-        // The state follows the digest.
-        let mut state_message = cdr::HEADER.to_vec();
-        state_message.extend_from_slice(&data[cdr::HEADER.len() + size_of::<u64>()..]);
+        let state_message = without_digest(data);
         let chained = self.chain.close(&state_message) == record.digest;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
         self.last = (tick, record.digest);
         Ok(Tick { events, inputs, record, state_message, chained })
+    }
+
+    /// The state at the start, with what the log does not say of it taken from `otherwise`.
+    ///
+    /// # Errors
+    /// When the message is not of the log's layout.
+    pub fn initial_over(&self, otherwise: &State) -> Result<State, LogError> {
+        self.mappings.state_over(&self.first, otherwise)
+    }
+
+    /// Whether a recorded state message and one of today's are the same, to the bit, in every field
+    /// that both know.
+    pub fn agrees(&self, recorded: &[u8], ours: &[u8]) -> bool {
+        self.mappings.agree(recorded, ours)
+    }
+
+    /// Where the log's layout is not today's, channel by channel.
+    ///
+    /// # Errors
+    /// Never, for the structs that are recorded.
+    pub fn differences(&self) -> Result<Vec<(&'static str, Difference)>, LogError> {
+        self.mappings.differences()
     }
 
     /// How the file ends, once the last tick has been read.
@@ -243,13 +287,14 @@ impl FlightReader {
 /// Every message of a log as it stands there, whatever its channel.
 pub struct Messages {
     records: Records,
+    facts: Vec<(String, BTreeMap<String, String>)>,
+    files: Vec<(String, Vec<u8>)>,
 }
 
 /// One message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// Channel.
-    pub topic: String,
+    channel: Arc<Channel>,
     /// Time since the start of the flight, ns.
     pub time_ns: u64,
     /// Its bytes.
@@ -263,7 +308,20 @@ impl Messages {
     /// When the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, LogError> {
         let file = File::open(path).map_err(LogError::Open)?;
-        Ok(Self { records: Records::new(file) })
+        if file.metadata().map_err(LogError::Open)?.is_dir() {
+            return Err(LogError::NotAFlight("a folder".into()));
+        }
+        Ok(Self { records: Records::new(file), facts: Vec::new(), files: Vec::new() })
+    }
+
+    /// The metadata records that came so far: name, keys and values.
+    pub fn facts(&self) -> &[(String, BTreeMap<String, String>)] {
+        &self.facts
+    }
+
+    /// The attachments that came so far: name and bytes.
+    pub fn files(&self) -> &[(String, Vec<u8>)] {
+        &self.files
     }
 
     /// How the file ends, once the last message has been read.
@@ -277,33 +335,42 @@ impl Iterator for Messages {
 
     fn next(&mut self) -> Option<Message> {
         loop {
-            if let Item::Message(topic, time_ns, data) = self.records.next()? {
-                return Some(Message { topic, time_ns, data });
+            match self.records.next()? {
+                Item::Message(channel, time_ns, data) => {
+                    return Some(Message { channel, time_ns, data });
+                }
+                Item::Metadata(name, facts) => self.facts.push((name, facts)),
+                Item::Attachment(name, data) => self.files.push((name, data)),
             }
         }
     }
 }
 
 impl Message {
-    /// The numbers of a recorded struct; `None` on channels for viewers.
+    /// Its channel's name.
+    pub fn topic(&self) -> &str {
+        &self.channel.topic
+    }
+
+    /// What its numbers are called, by the log's own schema; `None` on channels for viewers.
+    pub fn layout(&self) -> Option<&Layout> {
+        self.channel.layout.as_deref()
+    }
+
+    /// The numbers of a recorded struct, by the log's own schema; `None` on channels for viewers.
     ///
     /// # Errors
     /// When the bytes are not what the channel holds.
     pub fn fields(&self) -> Option<Result<Vec<Field>, LogError>> {
-        fn of<T: DeserializeOwned + Serialize>(data: &[u8]) -> Result<Vec<Field>, LogError> {
-            Ok(fields(&cdr::decode::<T>(data)?)?)
-        }
-        let decode = match self.topic.as_str() {
-            HARDWARE => of::<DeviceEvent>,
-            INPUTS => of::<InputsRecord>,
-            STATE => of::<StateRecord>,
-            TIMING => of::<TimingRecord>,
-            EVENTS => of::<EventRecord>,
-            OUTPUTS => of::<Outputs>,
-            _ => return None,
-        };
-        Some(decode(&self.data))
+        self.layout().map(|layout| layout.fields(&self.data))
     }
+}
+
+/// A `/state` message without its digest, which comes first.
+fn without_digest(data: &[u8]) -> Vec<u8> {
+    let mut state = cdr::HEADER.to_vec();
+    state.extend_from_slice(data.get(cdr::HEADER.len() + size_of::<u64>()..).unwrap_or_default());
+    state
 }
 
 fn no_flight(why: &str) -> LogError {
@@ -316,10 +383,9 @@ fn last_word(facts: &BTreeMap<String, String>) -> Option<(u64, u64)> {
     number(CLOSING_TICK).zip(number(CLOSING_DIGEST))
 }
 
-fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
+fn refuse_other_formats(identity: &Identity) -> Result<(), LogError> {
     let known = [
         (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
-        (Identity::MODEL, "flight model", engine::MODEL_VERSION),
         (Identity::RATE, "number of ticks a second", RATE_HZ),
     ];
     for (key, what, ours) in known {
@@ -335,14 +401,23 @@ fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
 enum Item {
     Metadata(String, BTreeMap<String, String>),
     Attachment(String, Vec<u8>),
-    Message(String, u64, Vec<u8>),
+    Message(Arc<Channel>, u64, Vec<u8>),
+}
+
+/// A channel of the file.
+#[derive(Debug, PartialEq, Eq)]
+struct Channel {
+    topic: String,
+    /// `None` when its messages are no recorded struct.
+    layout: Option<Arc<Layout>>,
 }
 
 /// Records of the file, up to its end or the first damage.
 struct Records {
     file: BufReader<File>,
     reader: LinearReader,
-    topics: BTreeMap<u16, String>,
+    schemas: BTreeMap<u16, Option<Arc<Layout>>>,
+    channels: BTreeMap<u16, Arc<Channel>>,
     ending: Ending,
     started: bool,
 }
@@ -358,7 +433,8 @@ impl Records {
         Self {
             file: BufReader::with_capacity(256 * 1024, file),
             reader: LinearReader::new_with_options(options),
-            topics: BTreeMap::new(),
+            schemas: BTreeMap::new(),
+            channels: BTreeMap::new(),
             ending: Ending::Closed,
             started: false,
         }
@@ -400,13 +476,27 @@ impl Records {
                 LinearReadEvent::Record { data, opcode } => {
                     self.started = true;
                     match mcap::parse_record(opcode, data)? {
+                        Record::Schema { header, data } => {
+                            let ours = header.encoding == "ros2msg"
+                                && header.name.split('/').next() == Some(schema::PACKAGE);
+                            let layout = std::str::from_utf8(&data)
+                                .ok()
+                                .filter(|_| ours)
+                                .and_then(Layout::parse)
+                                .map(Arc::new);
+                            self.schemas.insert(header.id, layout);
+                        }
                         Record::Channel(channel) => {
-                            self.topics.insert(channel.id, channel.topic);
+                            let plain = |c: char| c.is_ascii_alphanumeric() || "/_-.".contains(c);
+                            let schema = self.schemas.get(&channel.schema_id).cloned().flatten();
+                            let layout = schema.filter(|_| channel.topic.chars().all(plain));
+                            let known = Arc::new(Channel { topic: channel.topic, layout });
+                            self.channels.insert(channel.id, known);
                         }
                         Record::Message { header, data } => {
-                            if let Some(topic) = self.topics.get(&header.channel_id) {
-                                let (topic, data) = (topic.clone(), data.into_owned());
-                                return Ok(Some(Item::Message(topic, header.log_time, data)));
+                            if let Some(channel) = self.channels.get(&header.channel_id) {
+                                let (channel, data) = (channel.clone(), data.into_owned());
+                                return Ok(Some(Item::Message(channel, header.log_time, data)));
                             }
                         }
                         Record::Metadata(metadata) => {
