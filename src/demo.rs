@@ -38,7 +38,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if landing.log.is_err() {
         return Ok(ExitCode::from(report::LOG_CUT_SHORT));
     }
-    let status = verify::verify_one(out);
+    let status = verify::verify_one(out, &replay::Options::default());
     #[cfg(feature = "rerun")]
     {
         let bytes = crate::view::save(out, &saved)?;

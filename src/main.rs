@@ -20,6 +20,7 @@ mod condition;
 mod demo;
 mod fly;
 mod identity;
+mod json;
 mod linearize;
 mod log;
 mod replay_live;

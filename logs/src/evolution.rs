@@ -6,14 +6,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use engine::State;
+use engine::{Outputs, State};
 use engine::inputs::DeviceEvent;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::layout::{Layout, Number};
 use crate::records::{
-    EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, STATE, StateRecord, TIMING, TimingRecord,
+    EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
+    TimingRecord,
 };
 use crate::{LogError, cdr};
 
@@ -72,23 +73,6 @@ impl Mapping {
         cdr::decode(&ours)
     }
 
-    /// Whether a message of the log and one of today's say the same, to the bit, in every field that
-    /// both have.
-    pub fn agree(&self, theirs: &[u8], ours: &[u8]) -> bool {
-        if self.same {
-            return theirs == ours;
-        }
-        let header = cdr::HEADER.len();
-        let (Some(theirs), Some(ours)) = (theirs.get(header..), ours.get(header..)) else {
-            return false;
-        };
-        let (theirs, ours) = (theirs.as_chunks::<8>().0, ours.as_chunks::<8>().0);
-        self.sources
-            .iter()
-            .zip(ours)
-            .all(|(source, ours)| source.is_none_or(|source| theirs.get(source) == Some(ours)))
-    }
-
     /// What the two layouts do not have in common.
     ///
     /// # Errors
@@ -123,6 +107,7 @@ pub(crate) struct Mappings {
     inputs: Option<Mapping>,
     state: Option<Mapping>,
     bare_state: Option<Mapping>,
+    outputs: Option<Mapping>,
     timing: Option<Mapping>,
     events: Option<Mapping>,
 }
@@ -142,6 +127,7 @@ impl Mappings {
             HARDWARE => (&mut self.hardware, &["tick", "device", "kind", "code", "value"]),
             INPUTS => (&mut self.inputs, &["tick", "events"]),
             STATE => (&mut self.state, &["digest", "state.tick"]),
+            OUTPUTS => (&mut self.outputs, &[]),
             TIMING => (&mut self.timing, &[]),
             EVENTS => (&mut self.events, &[]),
             _ => return cdr::decode(message),
@@ -177,9 +163,9 @@ impl Mappings {
         }
     }
 
-    /// Whether a recorded state and one of today's are the same in every field that both know.
-    pub fn agree(&self, recorded: &[u8], ours: &[u8]) -> bool {
-        self.bare_state.as_ref().map_or_else(|| recorded == ours, |m| m.agree(recorded, ours))
+    /// Whether the log's states have today's layout.
+    pub fn same_state(&self) -> bool {
+        self.state.as_ref().is_none_or(Mapping::is_same)
     }
 
     /// Where the log's layout is not today's.
@@ -197,6 +183,7 @@ impl Mappings {
             of::<DeviceEvent>(HARDWARE, self.hardware.as_ref())?,
             of::<InputsRecord>(INPUTS, self.inputs.as_ref())?,
             of::<State>(STATE, self.bare_state.as_ref())?,
+            of::<Outputs>(OUTPUTS, self.outputs.as_ref())?,
             of::<TimingRecord>(TIMING, self.timing.as_ref())?,
             of::<EventRecord>(EVENTS, self.events.as_ref())?,
         ];
@@ -223,9 +210,6 @@ mod tests {
         let difference = mapping.difference::<DeviceEvent>().unwrap();
         assert_eq!(difference.missing, ["kernel_time_ns", "kind", "value"]);
         assert_eq!(difference.ignored, ["force_n", "value"]);
-        assert!(mapping.agree(&message, &cdr::encode(&event).unwrap()));
-        let other = DeviceEvent { code: 31, ..event };
-        assert!(!mapping.agree(&message, &cdr::encode(&other).unwrap()));
         assert!(mapping.decode(&message[..20], &otherwise).is_err());
     }
 }

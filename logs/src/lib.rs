@@ -13,6 +13,7 @@ mod reader;
 pub mod records;
 pub mod schema;
 mod setup;
+pub mod units;
 pub mod view;
 mod writer;
 

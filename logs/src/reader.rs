@@ -11,6 +11,8 @@ use engine::State;
 use mcap::McapError;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::fields::Field;
 use crate::evolution::{Difference, Mappings};
@@ -35,10 +37,13 @@ pub struct Tick {
     pub inputs: InputsRecord,
     /// The state after it, with its digest.
     pub record: StateRecord,
-    /// The bytes of the state, as recorded: in the log's own layout.
+    /// The bytes of the state, as recorded.
     pub state_message: Vec<u8>,
     /// Whether the digest is the one that follows from the digest before and this tick's messages.
     pub chained: bool,
+    /// The whole `/state` message, when its layout is not today's. What it lacks is 0 above, until
+    /// [`FlightReader::fill`] knows better.
+    pub foreign: Option<Vec<u8>>,
 }
 
 /// How the file ends.
@@ -79,6 +84,10 @@ pub struct FlightReader {
     pub remarks: Vec<Remark>,
     /// How the ticks kept time; cleared by whoever takes them.
     pub timings: Vec<TimingRecord>,
+    /// What could be observed, if it is to be kept; cleared by whoever takes it.
+    pub outputs: Vec<Outputs>,
+    /// Whether `outputs` is to be kept: no flight depends on it.
+    pub keep_outputs: bool,
     ending: Option<Ending>,
 }
 
@@ -164,6 +173,8 @@ impl FlightReader {
                         happenings: Vec::new(),
                         remarks: Vec::new(),
                         timings: Vec::new(),
+                        outputs: Vec::new(),
+                        keep_outputs: false,
                         ending: None,
                     });
                 }
@@ -211,11 +222,12 @@ impl FlightReader {
             match channel.topic.as_str() {
                 HARDWARE => {
                     self.chain.add(&data);
-                    self.pending.events.push(self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?);
+                    let event = self.decode(&channel, &data)?;
+                    self.pending.events.push(event);
                 }
                 INPUTS => {
                     self.chain.add(&data);
-                    let inputs: InputsRecord = self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?;
+                    let inputs: InputsRecord = self.decode(&channel, &data)?;
                     if self.pending.inputs.replace(inputs).is_some() {
                         return Err(LogError::Order(format!(
                             "two inputs before the state of tick {}",
@@ -224,8 +236,18 @@ impl FlightReader {
                     }
                 }
                 STATE => return self.close_tick(&channel, &data).map(Some),
-                TIMING => self.timings.push(self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?),
-                EVENTS => self.happenings.push(self.mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?),
+                TIMING => {
+                    let timing = self.decode(&channel, &data)?;
+                    self.timings.push(timing);
+                }
+                OUTPUTS if self.keep_outputs => {
+                    let outputs = self.decode(&channel, &data)?;
+                    self.outputs.push(outputs);
+                }
+                EVENTS => {
+                    let happening = self.decode(&channel, &data)?;
+                    self.happenings.push(happening);
+                }
                 view::LOG => self.remarks.push(view::remark(&data)?),
                 _ => {}
             }
@@ -233,7 +255,7 @@ impl FlightReader {
     }
 
     fn close_tick(&mut self, channel: &Channel, data: &[u8]) -> Result<Tick, LogError> {
-        let record: StateRecord = self.mappings.decode(&channel.topic, channel.layout.as_deref(), data)?;
+        let record: StateRecord = self.decode(channel, data)?;
         let tick = record.state.tick;
         let events = std::mem::take(&mut self.pending.events);
         let inputs = self
@@ -248,12 +270,17 @@ impl FlightReader {
                 events.len()
             )));
         }
-        let state_message = without_digest(data);
-        let chained = self.chain.close(&state_message) == record.digest;
+        let raw = without_digest(data);
+        let chained = self.chain.close(&raw) == record.digest;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
         self.last = (tick, record.digest);
-        Ok(Tick { events, inputs, record, state_message, chained })
+        let (state_message, foreign) = if self.mappings.same_state() {
+            (raw, None)
+        } else {
+            (cdr::encode(&record.state)?, Some(data.to_vec()))
+        };
+        Ok(Tick { events, inputs, record, state_message, chained, foreign })
     }
 
     /// The state at the start, with what the log does not say of it taken from `otherwise`.
@@ -264,10 +291,24 @@ impl FlightReader {
         self.mappings.state_over(&self.first, otherwise)
     }
 
-    /// Whether a recorded state message and one of today's are the same, to the bit, in every field
-    /// that both know.
-    pub fn agrees(&self, recorded: &[u8], ours: &[u8]) -> bool {
-        self.mappings.agree(recorded, ours)
+    /// Takes what a state of another layout lacks from `otherwise`, so that it differs from that state
+    /// only where both know the field.
+    ///
+    /// # Errors
+    /// When the message is not of the log's layout.
+    pub fn fill(&self, tick: &mut Tick, otherwise: &State) -> Result<(), LogError> {
+        if let Some(message) = &tick.foreign {
+            tick.record.state = self.mappings.state_over(message, otherwise)?;
+            tick.state_message = cdr::encode(&tick.record.state)?;
+        }
+        Ok(())
+    }
+
+    fn decode<T>(&mut self, channel: &Channel, message: &[u8]) -> Result<T, LogError>
+    where
+        T: Serialize + DeserializeOwned + Default,
+    {
+        self.mappings.decode(&channel.topic, channel.layout.as_deref(), message)
     }
 
     /// Where the log's layout is not today's, channel by channel.

@@ -59,14 +59,20 @@ impl Reflight {
     /// # Errors
     /// When the log's messages do not make a flight.
     pub fn next_tick(&mut self) -> Result<Option<Reflown>, ReplayError> {
-        let Some(recorded) = self.reader.next_tick()? else { return Ok(None) };
+        let Some(mut recorded) = self.reader.next_tick()? else { return Ok(None) };
         let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
         let (state, outputs) = step(&self.aircraft, &self.state, &inputs);
         self.state = state;
         self.message.clear();
         cdr::append(&mut self.message, &state)?;
+        self.reader.fill(&mut recorded, &state)?;
         let exact = self.message == recorded.state_message;
         Ok(Some(Reflown { recorded, outputs, exact }))
+    }
+
+    /// The state after the last tick, as a message.
+    pub fn message(&self) -> &[u8] {
+        &self.message
     }
 
     /// How the log ends, once it has been flown.
