@@ -48,7 +48,7 @@ enum Command {
     /// Refly a log, live in FlightGear.
     Replay(replay_live::Args),
     /// Does a log refly to the same bits? Exit 0 exact, 1 diverged, 2 not a usable log, 3 exact but
-    /// never closed.
+    /// never closed, 6 flown across versions.
     Verify(verify::Args),
     /// Show a log in the rerun viewer, or save it for the viewer.
     View(view::Args),

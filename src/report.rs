@@ -15,6 +15,8 @@ pub const NEVER_CLOSED: u8 = 3;
 pub const LOG_CUT_SHORT: u8 = 4;
 /// There is no such steady flight.
 pub const NO_TRIM: u8 = 5;
+/// A log of another version, flown for comparison.
+pub const COMPARED: u8 = 6;
 
 /// Latency beyond which CS-FSTD(A) refuses a simulator.
 const LATENCY_LIMIT_MS: f64 = 150.0;

@@ -9,6 +9,9 @@ use serde::de::DeserializeOwned;
 
 use crate::LogError;
 
+/// What MCAP calls it.
+pub(crate) const ENCODING: &str = "cdr";
+
 /// CDR version 1, little-endian.
 pub const HEADER: [u8; 4] = [0, 1, 0, 0];
 

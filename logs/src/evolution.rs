@@ -6,8 +6,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use engine::{Outputs, State};
 use engine::inputs::DeviceEvent;
+use engine::{Outputs, State};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -80,7 +80,8 @@ impl Mapping {
     pub fn difference<T: Serialize + Default>(&self) -> Result<Difference, LogError> {
         let ours = Layout::of::<T>()?;
         let path = |number: &Number| number.path.clone();
-        let missing = ours.numbers().iter().zip(&self.sources).filter(|(_, source)| source.is_none());
+        let missing =
+            ours.numbers().iter().zip(&self.sources).filter(|(_, source)| source.is_none());
         let used: BTreeSet<_> = self.sources.iter().flatten().collect();
         let ignored = self.theirs.numbers().iter().enumerate().filter(|(i, _)| !used.contains(i));
         Ok(Difference {

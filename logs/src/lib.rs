@@ -11,7 +11,9 @@ pub mod fields;
 pub mod layout;
 mod reader;
 pub mod records;
+mod recover;
 pub mod schema;
+mod seal;
 mod setup;
 pub mod units;
 pub mod view;
@@ -21,6 +23,7 @@ use std::io;
 use std::path::Path;
 
 pub use reader::{Ending, FlightReader, Message, Messages, Tick};
+pub use recover::{Recovery, recover};
 pub use setup::{Identity, Setup};
 pub use writer::{Closed, FlightWriter};
 
@@ -60,6 +63,9 @@ pub enum LogError {
     /// Messages that do not make a flight.
     #[error("the log's messages do not make a flight: {0}")]
     Order(String),
+    /// Nothing to be recovered.
+    #[error("there is nothing to recover: {0}")]
+    NotRecoverable(String),
     /// A struct that has no form as a message.
     #[error("cannot encode: {0}")]
     Encode(String),

@@ -7,26 +7,32 @@ use std::path::Path;
 use std::sync::Arc;
 
 use engine::inputs::DeviceEvent;
-use engine::State;
+use engine::{Outputs, State};
 use mcap::McapError;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::fields::Field;
 use crate::evolution::{Difference, Mappings};
+use crate::fields::Field;
 use crate::layout::Layout;
 use crate::records::{
-    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, STATE, StateRecord, TIMING,
-    TimingRecord, first_digest,
+    Chain, EVENTS, EventRecord, FORMAT_VERSION, FORMATS_READ, HARDWARE, INPUTS, InputsRecord,
+    OUTPUTS, STATE, StateRecord, TIMING, TimingRecord, first_digest,
 };
-use crate::setup::{CLOSING, CLOSING_DIGEST, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup};
+use crate::recover::Recovery;
+use crate::seal::{RollCall, Stamp, is_whole};
+use crate::setup::{
+    CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup,
+};
 use crate::view::{self, Remark};
 use crate::{LogError, cdr, schema};
 
+/// Bytes asked for at a time.
+const BUFFER_BYTES: usize = 256 * 1024;
 /// No record of a flight is larger than this; a length beyond it is damage, not data.
-const RECORD_BYTES_MAX: usize = 16 << 20;
+pub(crate) const RECORD_BYTES_MAX: usize = 4 << 20;
 
 /// One tick as recorded.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,8 +82,8 @@ pub struct FlightReader {
     pending: Pending,
     /// Tick and digest of the last state read.
     last: (u64, u64),
-    /// Tick and digest of the last state written, as the writer closed the log.
-    closing: Option<(u64, u64)>,
+    /// The writer's last word.
+    closing: Option<LastWord>,
     /// Events in the order they were recorded.
     pub happenings: Vec<EventRecord>,
     /// The same in words.
@@ -123,7 +129,15 @@ impl FlightReader {
         if file.metadata().map_err(LogError::Open)?.is_dir() {
             return Err(LogError::NotAFlight("a folder".into()));
         }
-        let mut records = Records::new(file);
+        Self::read(file)
+    }
+
+    /// Reads a log from anywhere, up to the state at the start.
+    ///
+    /// # Errors
+    /// When it is not MCAP, or not a flight of ours.
+    pub fn read(source: impl Read + Send + 'static) -> Result<Self, LogError> {
+        let mut records = Records::new(source);
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
@@ -132,6 +146,11 @@ impl FlightReader {
         loop {
             match records.next() {
                 Some(Item::Metadata(name, facts)) if name == METADATA => {
+                    let sealed =
+                        facts.get(Identity::FORMAT).is_none_or(|format| format != UNSEALED);
+                    if sealed && !is_whole(&facts) {
+                        records.oddity("the metadata that says who flew is not as written");
+                    }
                     identity = Some(Identity(facts));
                 }
                 Some(Item::Metadata(name, facts)) if name == CLOSING => {
@@ -148,22 +167,23 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
-                Some(Item::Message(channel, _, data)) if channel.topic == STATE => {
+                Some(Item::Message(message)) if message.topic() == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
                         return Err(no_flight(&format!("{missing} is not in it")));
                     }
                     refuse_other_formats(&identity)?;
                     let mut mappings = Mappings::default();
-                    let first: StateRecord = mappings.decode(&channel.topic, channel.layout.as_deref(), &data)?;
-                    let digest = first_digest(&setup.files(), &without_digest(&data));
+                    let (layout, data) = (message.layout(), &message.data);
+                    let first: StateRecord = mappings.decode(STATE, layout, data)?;
+                    let digest = first_digest(&setup.files(), &without_digest(data));
                     return Ok(Self {
                         records,
                         setup,
                         same_model: identity.get(Identity::MODEL) == engine::MODEL_VERSION,
                         identity,
                         mappings,
-                        first: data,
+                        first: message.data,
                         initial: first.state,
                         intact: digest == first.digest,
                         chain: Chain::from(first.digest),
@@ -197,28 +217,18 @@ impl FlightReader {
     pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
         loop {
             let Some(item) = self.records.next() else {
-                let ending = self.records.ending();
-                let begun = self.pending.inputs.is_some() || !self.pending.events.is_empty();
-                if ending == Ending::Closed && begun {
-                    return Err(LogError::Order("the last tick has no state".into()));
-                }
-                // An end without the writer's last word was put there by someone else.
-                let whole = self.closing == Some(self.last);
-                self.ending = Some(if ending == Ending::Closed && !whole {
-                    Ending::Truncated
-                } else {
-                    ending
-                });
+                self.ending = Some(self.end()?);
                 return Ok(None);
             };
-            let (channel, data) = match item {
-                Item::Message(channel, _, data) => (channel, data),
+            let message = match item {
+                Item::Message(message) => message,
                 Item::Metadata(name, facts) if name == CLOSING => {
                     self.closing = last_word(&facts);
                     continue;
                 }
                 Item::Metadata(..) | Item::Attachment(..) => continue,
             };
+            let (channel, data) = (message.channel, message.data);
             match channel.topic.as_str() {
                 HARDWARE => {
                     self.chain.add(&data);
@@ -254,6 +264,40 @@ impl FlightReader {
         }
     }
 
+    /// How the file ends, now that nothing more can be read.
+    fn end(&self) -> Result<Ending, LogError> {
+        let ending = self.records.ending();
+        let begun = self.pending.inputs.is_some() || !self.pending.events.is_empty();
+        if ending == Ending::Closed && begun {
+            return Err(LogError::Order("the last tick has no state".into()));
+        }
+        if matches!(ending, Ending::Damaged(_)) {
+            return Ok(ending);
+        }
+        if let Some(oddity) = &self.records.oddity {
+            return Ok(Ending::Damaged(oddity.clone()));
+        }
+        // An end without the writer's last word was put there by someone else.
+        let Some(closing) = self.closing.filter(|_| ending == Ending::Closed) else {
+            return Ok(Ending::Truncated);
+        };
+        let sealed = self.identity.get(Identity::FORMAT) != UNSEALED;
+        if closing.last != self.last || sealed && closing.messages.is_none() {
+            return Ok(Ending::Truncated);
+        }
+        // The chain says that the flight is what was flown: it is something beside it.
+        if sealed && closing.messages != Some(self.records.roll_call.digest()) {
+            return Ok(Ending::Damaged(
+                "a message beside the flight itself (timing, events, viewers' channels, what any is \
+                 called, its order or time) is not as written, though every checksum is right: a tool that \
+                 repairs logs may have done this"
+                    .into(),
+            ));
+        }
+        // A recovered log is a proper file, and still not the whole flight.
+        Ok(if self.recovered_from().is_some() { Ending::Truncated } else { Ending::Closed })
+    }
+
     fn close_tick(&mut self, channel: &Channel, data: &[u8]) -> Result<Tick, LogError> {
         let record: StateRecord = self.decode(channel, data)?;
         let tick = record.state.tick;
@@ -283,6 +327,11 @@ impl FlightReader {
         Ok(Tick { events, inputs, record, state_message, chained, foreign })
     }
 
+    /// Whether the log's states have the fields that states have today.
+    pub fn has_todays_state(&self) -> bool {
+        self.mappings.same_state()
+    }
+
     /// The state at the start, with what the log does not say of it taken from `otherwise`.
     ///
     /// # Errors
@@ -308,7 +357,7 @@ impl FlightReader {
     where
         T: Serialize + DeserializeOwned + Default,
     {
-        self.mappings.decode(&channel.topic, channel.layout.as_deref(), message)
+        self.mappings.decode(&channel.topic, channel.layout.as_ref(), message)
     }
 
     /// Where the log's layout is not today's, channel by channel.
@@ -317,6 +366,23 @@ impl FlightReader {
     /// Never, for the structs that are recorded.
     pub fn differences(&self) -> Result<Vec<(&'static str, Difference)>, LogError> {
         self.mappings.differences()
+    }
+
+    /// What no checksum found and is not as written, so far.
+    pub fn oddity(&self) -> Option<&str> {
+        self.records.oddity.as_deref()
+    }
+
+    /// The file that this log was recovered from, if it was.
+    pub fn recovered_from(&self) -> Option<&str> {
+        self.identity.0.get(Recovery::PARENT).map(String::as_str)
+    }
+
+    /// Lets go of what was read beside the ticks: for whoever reads on and on and does not ask for it.
+    pub fn forget(&mut self) {
+        self.timings.clear();
+        self.happenings.clear();
+        self.remarks.clear();
     }
 
     /// How the file ends, once the last tick has been read.
@@ -340,6 +406,8 @@ pub struct Message {
     pub time_ns: u64,
     /// Its bytes.
     pub data: Vec<u8>,
+    /// What it carries beside them.
+    pub(crate) stamp: Stamp,
 }
 
 impl Messages {
@@ -377,9 +445,7 @@ impl Iterator for Messages {
     fn next(&mut self) -> Option<Message> {
         loop {
             match self.records.next()? {
-                Item::Message(channel, time_ns, data) => {
-                    return Some(Message { channel, time_ns, data });
-                }
+                Item::Message(message) => return Some(message),
                 Item::Metadata(name, facts) => self.facts.push((name, facts)),
                 Item::Attachment(name, data) => self.files.push((name, data)),
             }
@@ -395,7 +461,7 @@ impl Message {
 
     /// What its numbers are called, by the log's own schema; `None` on channels for viewers.
     pub fn layout(&self) -> Option<&Layout> {
-        self.channel.layout.as_deref()
+        self.channel.layout.as_ref()
     }
 
     /// The numbers of a recorded struct, by the log's own schema; `None` on channels for viewers.
@@ -418,20 +484,32 @@ fn no_flight(why: &str) -> LogError {
     LogError::NotAFlight(format!("an MCAP file, but not a tiltrotor flight: {why}"))
 }
 
-/// Tick and digest with which the writer closed the log.
-fn last_word(facts: &BTreeMap<String, String>) -> Option<(u64, u64)> {
+/// With what the writer closed the log.
+#[derive(Clone, Copy, Debug)]
+struct LastWord {
+    /// Tick and digest of the last state.
+    last: (u64, u64),
+    /// Roll call of all messages; `None` without a seal.
+    messages: Option<u64>,
+}
+
+/// The log format that knew no seals.
+const UNSEALED: &str = "1";
+
+fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
     let number = |key| facts.get(key).and_then(|text| text.parse().ok());
-    number(CLOSING_TICK).zip(number(CLOSING_DIGEST))
+    let last = number(CLOSING_TICK).zip(number(CLOSING_DIGEST))?;
+    Some(LastWord { last, messages: number(CLOSING_MESSAGES).filter(|_| is_whole(facts)) })
 }
 
 fn refuse_other_formats(identity: &Identity) -> Result<(), LogError> {
     let known = [
-        (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
-        (Identity::RATE, "number of ticks a second", RATE_HZ),
+        (Identity::FORMAT, "log format", FORMAT_VERSION, &FORMATS_READ[..]),
+        (Identity::RATE, "number of ticks a second", RATE_HZ, &[RATE_HZ]),
     ];
-    for (key, what, ours) in known {
+    for (key, what, ours, read) in known {
         let theirs = identity.get(key);
-        if theirs != ours {
+        if !read.contains(&theirs) {
             return Err(LogError::Version { what, theirs: theirs.into(), ours });
         }
     }
@@ -442,7 +520,7 @@ fn refuse_other_formats(identity: &Identity) -> Result<(), LogError> {
 enum Item {
     Metadata(String, BTreeMap<String, String>),
     Attachment(String, Vec<u8>),
-    Message(Arc<Channel>, u64, Vec<u8>),
+    Message(Message),
 }
 
 /// A channel of the file.
@@ -450,21 +528,44 @@ enum Item {
 struct Channel {
     topic: String,
     /// `None` when its messages are no recorded struct.
-    layout: Option<Arc<Layout>>,
+    layout: Option<Layout>,
+    definition: Arc<Definition>,
+}
+
+/// What a channel's messages are, as the log says it.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Definition {
+    name: String,
+    encoding: String,
+    text: Vec<u8>,
+}
+
+/// The parts of a file, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Start,
+    Data,
+    Index,
+    Footer,
 }
 
 /// Records of the file, up to its end or the first damage.
 struct Records {
-    file: BufReader<File>,
+    source: BufReader<Box<dyn Read + Send>>,
     reader: LinearReader,
-    schemas: BTreeMap<u16, Option<Arc<Layout>>>,
+    /// The last bytes that were read.
+    tail: Vec<u8>,
+    part: Part,
+    definitions: BTreeMap<u16, Arc<Definition>>,
     channels: BTreeMap<u16, Arc<Channel>>,
+    roll_call: RollCall,
+    /// The first thing that no checksum found and that is not as written.
+    oddity: Option<String>,
     ending: Ending,
-    started: bool,
 }
 
 impl Records {
-    fn new(file: File) -> Self {
+    fn new(source: impl Read + Send + 'static) -> Self {
         let options = LinearReaderOptions::default()
             .with_prevalidate_chunk_crcs(true)
             .with_validate_data_section_crc(true)
@@ -472,17 +573,24 @@ impl Records {
             .with_check_finishes_after_end_magic(true)
             .with_record_length_limit(RECORD_BYTES_MAX);
         Self {
-            file: BufReader::with_capacity(256 * 1024, file),
+            source: BufReader::with_capacity(BUFFER_BYTES, Box::new(source)),
             reader: LinearReader::new_with_options(options),
-            schemas: BTreeMap::new(),
+            tail: Vec::with_capacity(2 * mcap::MAGIC.len()),
+            part: Part::Start,
+            definitions: BTreeMap::new(),
             channels: BTreeMap::new(),
+            roll_call: RollCall::default(),
+            oddity: None,
             ending: Ending::Closed,
-            started: false,
         }
     }
 
     fn ending(&self) -> Ending {
         self.ending.clone()
+    }
+
+    fn oddity(&mut self, what: &str) {
+        self.oddity.get_or_insert_with(|| what.to_string());
     }
 
     fn next(&mut self) -> Option<Item> {
@@ -491,16 +599,16 @@ impl Records {
         }
         match self.read() {
             Ok(item) => item,
-            Err(McapError::UnexpectedEof) if self.started => {
-                self.ending = Ending::Truncated;
-                None
-            }
-            Err(McapError::BadMagic | McapError::UnexpectedEof) if !self.started => {
+            Err(McapError::BadMagic | McapError::UnexpectedEof) if self.part == Part::Start => {
                 self.ending = Ending::Damaged("not an MCAP file".into());
                 None
             }
+            Err(McapError::UnexpectedEof) if self.tail != mcap::MAGIC => {
+                self.ending = Ending::Truncated;
+                None
+            }
             Err(error) => {
-                self.ending = Ending::Damaged(error.to_string());
+                self.ending = Ending::Damaged(in_words(&error));
                 None
             }
         }
@@ -511,34 +619,53 @@ impl Records {
             match event? {
                 LinearReadEvent::ReadRequest(wanted) => {
                     let room = self.reader.insert(wanted);
-                    let read = self.file.read(room)?;
+                    let read = self.source.read(room)?;
+                    remember(&mut self.tail, &room[..read]);
                     self.reader.notify_read(read);
                 }
                 LinearReadEvent::Record { data, opcode } => {
-                    self.started = true;
-                    match mcap::parse_record(opcode, data)? {
+                    if opcode == mcap::records::op::ATTACHMENT && !attachment_fits(data) {
+                        self.ending = Ending::Damaged("a file's record is too short for it".into());
+                        return Ok(None);
+                    }
+                    let record = mcap::parse_record(opcode, data)?;
+                    let part = part_of(&record, self.part);
+                    if let Some(what) = misplaced(&record, part, self.part) {
+                        self.ending = Ending::Damaged(what);
+                        return Ok(None);
+                    }
+                    self.part = part;
+                    match record {
                         Record::Schema { header, data } => {
-                            let ours = header.encoding == "ros2msg"
-                                && header.name.split('/').next() == Some(schema::PACKAGE);
-                            let layout = std::str::from_utf8(&data)
-                                .ok()
-                                .filter(|_| ours)
-                                .and_then(Layout::parse)
-                                .map(Arc::new);
-                            self.schemas.insert(header.id, layout);
+                            let definition = Definition {
+                                name: header.name,
+                                encoding: header.encoding,
+                                text: data.into_owned(),
+                            };
+                            self.definitions.insert(header.id, Arc::new(definition));
                         }
-                        Record::Channel(channel) => {
-                            let plain = |c: char| c.is_ascii_alphanumeric() || "/_-.".contains(c);
-                            let schema = self.schemas.get(&channel.schema_id).cloned().flatten();
-                            let layout = schema.filter(|_| channel.topic.chars().all(plain));
-                            let known = Arc::new(Channel { topic: channel.topic, layout });
-                            self.channels.insert(channel.id, known);
-                        }
+                        Record::Channel(channel) => self.meet(channel),
                         Record::Message { header, data } => {
-                            if let Some(channel) = self.channels.get(&header.channel_id) {
-                                let (channel, data) = (channel.clone(), data.into_owned());
-                                return Ok(Some(Item::Message(channel, header.log_time, data)));
-                            }
+                            let Some(channel) = self.channels.get(&header.channel_id).cloned()
+                            else {
+                                self.ending = Ending::Damaged(
+                                    "a message on a channel that is not there".into(),
+                                );
+                                return Ok(None);
+                            };
+                            let stamp = Stamp {
+                                sequence: header.sequence,
+                                log_time_ns: header.log_time,
+                                publish_time_ns: header.publish_time,
+                            };
+                            let definition = &channel.definition.text;
+                            self.roll_call.add(&channel.topic, definition, stamp, &data);
+                            return Ok(Some(Item::Message(Message {
+                                channel,
+                                time_ns: header.log_time,
+                                data: data.into_owned(),
+                                stamp,
+                            })));
                         }
                         Record::Metadata(metadata) => {
                             return Ok(Some(Item::Metadata(metadata.name, metadata.metadata)));
@@ -553,4 +680,94 @@ impl Records {
         }
         Ok(None)
     }
+
+    /// Takes a channel's name, and looks whether it can hold what a channel of that name holds.
+    fn meet(&mut self, channel: mcap::records::Channel) {
+        let definition = self.definitions.get(&channel.schema_id).cloned().unwrap_or_default();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "/_-.".contains(c);
+        let ours = definition.encoding == schema::ENCODING
+            && definition.name.split('/').next() == Some(schema::PACKAGE)
+            && channel.topic.chars().all(plain);
+        let layout = std::str::from_utf8(&definition.text).ok().filter(|_| ours);
+        let layout = layout.and_then(Layout::parse);
+        let kinds = schema::kinds().unwrap_or_default();
+        if let Some(kind) = kinds.iter().find(|kind| kind.topic == channel.topic) {
+            // Its fields may be others than today's; what they are called has to be said.
+            let named = layout.is_some() || Layout::parse(&kind.text).is_none();
+            if !named || definition.name != kind.name || channel.message_encoding != cdr::ENCODING {
+                self.oddity(&format!("the definition of {} is not as written", kind.topic));
+            }
+        }
+        let known = Channel { topic: channel.topic, layout, definition };
+        self.channels.insert(channel.id, Arc::new(known));
+    }
+}
+
+/// Whether an attachment's name, media type and checksum lie inside its record: mcap 0.26 takes that
+/// for granted.
+fn attachment_fits(record: &[u8]) -> bool {
+    const TIMES: usize = 2 * size_of::<u64>();
+    const DATA_LENGTH: usize = size_of::<u64>();
+    const CRC: usize = size_of::<u32>();
+    let mut at = TIMES;
+    for _name_and_media_type in 0..2 {
+        let Some(length) = record.get(at..).and_then(|rest| rest.first_chunk()) else {
+            return false;
+        };
+        at = at
+            .saturating_add(size_of::<u32>())
+            .saturating_add(u32::from_le_bytes(*length) as usize);
+    }
+    at.saturating_add(DATA_LENGTH + CRC) <= record.len()
+}
+
+/// Keeps the last bytes, as many as the magic number has.
+fn remember(tail: &mut Vec<u8>, read: &[u8]) {
+    let kept = mcap::MAGIC.len();
+    tail.extend_from_slice(&read[read.len().saturating_sub(kept)..]);
+    tail.drain(..tail.len().saturating_sub(kept));
+}
+
+/// The part of the file that a record is in, or begins.
+fn part_of(record: &Record<'_>, now: Part) -> Part {
+    match record {
+        Record::Header(_) => Part::Data,
+        Record::DataEnd(_) => Part::Index,
+        Record::Footer(_) => Part::Footer,
+        _ => now,
+    }
+}
+
+/// What is wrong with a record's place, if anything.
+fn misplaced(record: &Record<'_>, part: Part, before: Part) -> Option<String> {
+    let repeated = match record {
+        Record::Header(_) => before != Part::Start,
+        Record::DataEnd(_) => before != Part::Data,
+        Record::Footer(_) => before != Part::Index,
+        Record::Unknown { opcode, .. } => {
+            return Some(format!("a record of a kind that no log has (0x{opcode:02x})"));
+        }
+        Record::Message { .. } | Record::Attachment { .. } | Record::Metadata(_) => {
+            part != Part::Data
+        }
+        _ => part == Part::Start || part == Part::Footer,
+    };
+    repeated.then(|| "a record where it does not belong".to_string())
+}
+
+/// What MCAP's own checks found, and where that is.
+fn in_words(error: &McapError) -> String {
+    let what = match error {
+        McapError::BadAttachmentCrc { .. } => "one of the files the flight was flown with",
+        McapError::BadChunkCrc { .. } | McapError::DecompressionError(_) => "a chunk of messages",
+        McapError::BadDataCrc { .. } => {
+            "something beside messages and files: header, metadata, a chunk's frame or its index"
+        }
+        McapError::BadSummaryCrc { .. } => "the index at the end",
+        McapError::UnexpectedEof => "a length: it points beyond the end",
+        McapError::BadMagic => "the last bytes",
+        McapError::BytesAfterEndMagic => return "bytes after the end".into(),
+        error => return error.to_string(),
+    };
+    format!("{what} is not as written ({error})")
 }

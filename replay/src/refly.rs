@@ -26,6 +26,8 @@ pub struct Reflight {
     pub state: State,
     /// The same as a message.
     message: Vec<u8>,
+    /// What is not as the log says.
+    pub notes: Vec<String>,
 }
 
 /// One tick, recorded and reflown.
@@ -44,14 +46,52 @@ impl Reflight {
     /// # Errors
     /// When it is not a flight log, or of another version, or its files cannot be read.
     pub fn open(path: &Path) -> Result<Self, ReplayError> {
-        let reader = FlightReader::open(path)?;
+        Self::of(FlightReader::open(path)?)
+    }
+
+    /// Opens a log, whatever version of the flight model flew it: what comes out is a comparison of
+    /// two versions. Where the log's files mean nothing to this one, its own take their place.
+    ///
+    /// # Errors
+    /// When it is not a flight log, or its cockpit map cannot be read.
+    pub fn open_across_versions(path: &Path) -> Result<Self, ReplayError> {
+        let reader = FlightReader::open_across_versions(path)?;
+        if reader.same_model {
+            return Self::of(reader);
+        }
+        let mut notes = Vec::new();
+        let setup = &reader.setup;
+        let mut aircraft = match aircraft::aircraft("aircraft.toml", &setup.aircraft_toml) {
+            Ok(aircraft) => aircraft,
+            Err(error) => {
+                notes.push(format!("flown with this version's XV-15: the log's {error}"));
+                aircraft::aircraft("xv15.toml", aircraft::XV15)?
+            }
+        };
+        aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+        let base = match aircraft::start("scenario.toml", &setup.scenario_toml) {
+            Ok(start) => start.state(&aircraft).unwrap_or_default(),
+            Err(error) => {
+                notes.push(format!("what the first state lacks is 0: the log's {error}"));
+                State::default()
+            }
+        };
+        let state = reader.initial_over(&base)?;
+        Ok(Self { reader, aircraft, state, message: Vec::new(), notes })
+    }
+
+    fn of(reader: FlightReader) -> Result<Self, ReplayError> {
         let setup = &reader.setup;
         let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
         aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
         // The flight does not need it, but a log whose scenario cannot be read is not whole.
-        aircraft::start("scenario.toml", &setup.scenario_toml)?;
-        let state = reader.initial;
-        Ok(Self { reader, aircraft, state, message: Vec::new() })
+        let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
+        let state = if reader.has_todays_state() {
+            reader.initial
+        } else {
+            reader.initial_over(&start.state(&aircraft).unwrap_or_default())?
+        };
+        Ok(Self { reader, aircraft, state, message: Vec::new(), notes: Vec::new() })
     }
 
     /// Flies the next tick; `None` at the end of the log.

@@ -10,17 +10,20 @@ use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
 use crate::growth::WINDOW_TICKS;
 use crate::refly::{Reflight, ReplayError};
+use crate::versions::Versions;
 
 /// How to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Ticks that are still reflown after the first difference, to see how it grows.
     pub growth_ticks: u64,
+    /// Fly logs of other versions of the flight model as well, as a comparison.
+    pub across_versions: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { growth_ticks: WINDOW_TICKS }
+        Self { growth_ticks: WINDOW_TICKS, across_versions: false }
     }
 }
 
@@ -43,6 +46,8 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
+    /// What stands between the log's version and this one; `None` when nothing does.
+    pub versions: Option<Box<Versions>>,
 }
 
 /// In one word.
@@ -56,6 +61,8 @@ pub enum Outcome {
     Damaged,
     /// The same to the last bit, as far as the log goes: it was never closed.
     Incomplete,
+    /// Flown by another version than recorded, or not comparable in every field: never exact.
+    Compared,
 }
 
 impl Outcome {
@@ -66,6 +73,7 @@ impl Outcome {
             Self::Diverged => "diverged",
             Self::Damaged => "damaged",
             Self::Incomplete => "incomplete",
+            Self::Compared => "compared",
         }
     }
 }
@@ -73,7 +81,10 @@ impl Outcome {
 impl Verdict {
     /// In one word.
     pub fn outcome(&self) -> Outcome {
-        if self.divergence.is_some() || self.altered.is_some() {
+        let comparison = self.versions.as_ref().is_some_and(|versions| versions.comparison());
+        if comparison && self.altered.is_none() && self.readable() {
+            Outcome::Compared
+        } else if self.divergence.is_some() || self.altered.is_some() {
             Outcome::Diverged
         } else if self.disorder.is_some() || matches!(self.ending, Ending::Damaged(_)) {
             Outcome::Damaged
@@ -82,6 +93,10 @@ impl Verdict {
         } else {
             Outcome::Exact
         }
+    }
+
+    fn readable(&self) -> bool {
+        self.disorder.is_none() && !matches!(self.ending, Ending::Damaged(_))
     }
 
     /// The last tick that is the same.
@@ -128,7 +143,11 @@ pub fn verify(
     options: &Options,
     mut progress: impl FnMut(u64),
 ) -> Result<Verdict, ReplayError> {
-    let mut flight = Reflight::open(path)?;
+    let mut flight = if options.across_versions {
+        Reflight::open_across_versions(path)?
+    } else {
+        Reflight::open(path)?
+    };
     let mut verdict = Verdict {
         start_tick: flight.state.tick,
         ticks: 0,
@@ -138,6 +157,7 @@ pub fn verify(
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        versions: None,
     };
     let mut last_input = LastInput::new()?;
     let mut watch = Watch::new()?;
@@ -201,6 +221,7 @@ pub fn verify(
         watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
     }
     verdict.ending = flight.ending();
+    verdict.versions = Versions::of(&flight)?.map(Box::new);
     Ok(verdict)
 }
 
@@ -251,6 +272,9 @@ impl fmt::Display for Verdict {
                 self.ticks as f64 * STEP_S,
                 self.digest
             )?;
+        }
+        if let Some(versions) = &self.versions {
+            writeln!(f, "{versions}")?;
         }
         let more = if self.ending == Ending::Closed { "" } else { " or more" };
         let (exact, last) = (self.exact_tick(), self.last_tick());

@@ -58,9 +58,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         }
         line.clear();
         let _ = write!(line, "{{\"topic\":\"{topic}\",\"time_ns\":{}", message.time_ns);
-        let bits: Vec<u64> = layout.bits(&message.data).with_context(|| name.to_string())?.collect();
+        let bits: Vec<u64> =
+            layout.bits(&message.data).with_context(|| name.to_string())?.collect();
         for (place, name) in choice {
-            let (Some(number), Some(bits)) = (layout.numbers().get(*place), bits.get(*place)) else {
+            let (Some(number), Some(bits)) = (layout.numbers().get(*place), bits.get(*place))
+            else {
                 bail!("{}: {topic} changes its layout on the way", args.log.display());
             };
             let _ = match number.kind.value(*bits) {

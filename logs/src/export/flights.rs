@@ -57,7 +57,12 @@ impl Flight {
 
     /// The flight's name in the tables: the file's, and a digest of who flew what, when, and from
     /// which first state. Two files of one name are told apart, and a log exported twice is one flight.
-    pub fn name(&self, facts: &Facts, files: &Files, first_state: &[u8]) -> Result<String, LogError> {
+    pub fn name(
+        &self,
+        facts: &Facts,
+        files: &Files,
+        first_state: &[u8],
+    ) -> Result<String, LogError> {
         let mut digest = Xxh3::new();
         let identity = facts.iter().find(|(record, _)| record == METADATA);
         let Some((_, identity)) = identity else {
@@ -126,7 +131,8 @@ impl Flight {
         }
         for (record, facts) in messages.facts().iter().filter(|(record, _)| record != CLOSING) {
             for (key, value) in facts {
-                let name = if record == METADATA { plain(key) } else { plain(&format!("{record}_{key}")) };
+                let name =
+                    if record == METADATA { plain(key) } else { plain(&format!("{record}_{key}")) };
                 row.push(match value.parse() {
                     Ok(number) if key == Identity::STARTED => {
                         (Column::number(name, Kind::U64), whole(number))

@@ -207,10 +207,7 @@ impl Tables {
         if message.topic() == view::LOG {
             let remark = view::remark(&message.data)?;
             let level = Cell::Number(Value::U64(remark.level as u64));
-            let columns = [
-                Column::number("level", Kind::U64),
-                Column::text("words"),
-            ];
+            let columns = [Column::number("level", Kind::U64), Column::text("words")];
             let open = match self.open.get_mut("log") {
                 Some(open) => open,
                 None => self.open("log", &with_time(&columns), None)?,

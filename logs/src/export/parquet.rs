@@ -43,7 +43,8 @@ impl ParquetTable {
     pub fn create(path: &Path, columns: &[Column]) -> Result<Self, LogError> {
         let file = File::create(path).map_err(|error| LogError::create(path, error))?;
         let fields = columns.iter().map(field).collect::<Result<_, _>>().map_err(told)?;
-        let schema = Type::group_type_builder("flight").with_fields(fields).build().map_err(told)?;
+        let schema =
+            Type::group_type_builder("flight").with_fields(fields).build().map_err(told)?;
         let mut properties = WriterProperties::builder()
             .set_created_by(concat!("tiltrotor ", env!("CARGO_PKG_VERSION")).into())
             .set_compression(Compression::ZSTD(ZstdLevel::try_new(3).map_err(told)?))
