@@ -3,12 +3,14 @@
 mod cat;
 mod export;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
-use logs::{Ending, FlightReader, LogError};
+use logs::evolution::Difference;
+use logs::{Ending, FlightReader, LogError, Messages};
 use recorder::statistics::Statistics;
 
 use crate::report;
@@ -37,20 +39,33 @@ pub fn run(command: &Command) -> Result<ExitCode> {
 }
 
 fn info(log: &Path) -> Result<ExitCode> {
-    let mut reader = FlightReader::open(log).with_context(|| log.display().to_string())?;
+    let mut reader = match FlightReader::open_across_versions(log) {
+        Err(LogError::Version { what, theirs, ours }) => {
+            say!("{}: {what} {theirs}, and this program knows {ours}", log.display());
+            return what_is_there(log);
+        }
+        reader => reader.with_context(|| log.display().to_string())?,
+    };
     say!("{}", log.display());
-    for (key, value) in &reader.identity.0 {
-        say!("  {key:<16} {value}");
+    say_facts("", &reader.identity.0);
+    if !reader.same_model {
+        say!(
+            "  {:<16} {}; `verify --across-versions` flies it",
+            "this program's",
+            engine::MODEL_VERSION
+        );
     }
     for (name, text) in reader.setup.files() {
         say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
     }
-    let (mut ticks, mut events, mut digest) = (0, 0, 0);
+    let (mut events, mut digest) = (0, 0);
+    let start = reader.initial.tick;
+    let mut last = start;
     let mut statistics = Statistics::new();
     let disorder = loop {
         match reader.next_tick() {
             Ok(Some(tick)) => {
-                ticks = tick.record.state.tick;
+                last = tick.record.state.tick;
                 events += tick.events.len();
                 digest = tick.record.digest;
             }
@@ -62,7 +77,11 @@ fn info(log: &Path) -> Result<ExitCode> {
             statistics.add(&timing);
         }
     };
+    let ticks = last.saturating_sub(start);
     say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
+    if start != 0 {
+        say!("  {:<16} tick {start} ({:.3} s)", "begins at", start as f64 * STEP_S);
+    }
     say!("  {:<16} {events}", "device events");
     say!("  {:<16} {} late ticks", "overruns", statistics.overruns);
     say!(
@@ -73,6 +92,17 @@ fn info(log: &Path) -> Result<ExitCode> {
         statistics.sent.longest_ms()
     );
     say!("  {:<16} {digest:016x}", "digest");
+    for (name, facts) in &reader.other_facts {
+        say_facts(&format!("{name}."), facts);
+    }
+    for (topic, difference) in reader.differences()? {
+        let Difference { missing, ignored } = difference;
+        say!(
+            "  {topic:<16} {} fields of today are not in it, {} of its fields are not known today",
+            missing.len(),
+            ignored.len()
+        );
+    }
     for remark in &reader.remarks {
         say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }
@@ -84,4 +114,32 @@ fn info(log: &Path) -> Result<ExitCode> {
     };
     say!("  {:<16} {ending}", "end of the log");
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
+}
+
+fn say_facts(of: &str, facts: &BTreeMap<String, String>) {
+    for (key, value) in facts {
+        say!("  {:<16} {value}", format!("{of}{key}"));
+    }
+}
+
+/// What any version can say of a log: what it says of itself, and how many messages there are.
+fn what_is_there(log: &Path) -> Result<ExitCode> {
+    let mut messages = Messages::open(log)?;
+    let mut channels: BTreeMap<String, (u64, usize)> = BTreeMap::new();
+    for message in &mut messages {
+        let numbers = message.layout().map_or(0, |layout| layout.numbers().len());
+        let (count, _) = channels.entry(message.topic().into()).or_insert((0, numbers));
+        *count += 1;
+    }
+    for (name, facts) in messages.facts() {
+        say_facts(&if name == "tiltrotor" { String::new() } else { format!("{name}.") }, facts);
+    }
+    for (name, data) in messages.files() {
+        say!("  {name:<16} {} bytes", data.len());
+    }
+    for (topic, (count, numbers)) in channels {
+        say!("  {topic:<16} {count} messages of {numbers} numbers");
+    }
+    say!("  it cannot be reflown; `log cat` and `log export` read it by its own schema");
+    Ok(ExitCode::from(report::UNUSABLE))
 }

@@ -74,7 +74,7 @@ struct Verified {
 impl Verified {
     fn new(log: &Path, options: &Options, progress: impl FnMut(u64)) -> Self {
         let started = Instant::now();
-        let verdict = verify(log, options, progress).map_err(|error| error.to_string());
+        let verdict = verify(log, options, progress).map_err(|error| report::refusal(&error));
         Self { log: log.into(), verdict, took: started.elapsed() }
     }
 

@@ -70,6 +70,8 @@ pub struct FlightReader {
     pub setup: Setup,
     /// Who flew it.
     pub identity: Identity,
+    /// Metadata records that are not known here: name, keys and values.
+    pub other_facts: Vec<(String, BTreeMap<String, String>)>,
     /// State at the start.
     pub initial: State,
     /// Whether the files and the state at the start are those of the first digest.
@@ -141,6 +143,7 @@ impl FlightReader {
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
+        let mut other_facts = Vec::new();
         // A tool that copied the log may have put the writer's last word first.
         let mut closing = None;
         loop {
@@ -156,6 +159,7 @@ impl FlightReader {
                 Some(Item::Metadata(name, facts)) if name == CLOSING => {
                     closing = last_word(&facts);
                 }
+                Some(Item::Metadata(name, facts)) => other_facts.push((name, facts)),
                 Some(Item::Attachment(name, data)) => {
                     let Some(known) = Setup::NAMES.iter().find(|known| **known == name) else {
                         continue;
@@ -182,6 +186,7 @@ impl FlightReader {
                         setup,
                         same_model: identity.get(Identity::MODEL) == engine::MODEL_VERSION,
                         identity,
+                        other_facts,
                         mappings,
                         first: message.data,
                         initial: first.state,
@@ -226,7 +231,11 @@ impl FlightReader {
                     self.closing = last_word(&facts);
                     continue;
                 }
-                Item::Metadata(..) | Item::Attachment(..) => continue,
+                Item::Metadata(name, facts) => {
+                    self.other_facts.push((name, facts));
+                    continue;
+                }
+                Item::Attachment(..) => continue,
             };
             let (channel, data) = (message.channel, message.data);
             match channel.topic.as_str() {
@@ -435,7 +444,13 @@ impl Messages {
 
     /// How the file ends, once the last message has been read.
     pub fn ending(&self) -> Ending {
-        self.records.ending()
+        match self.records.ending() {
+            // An end without the writer's last word was put there by someone else.
+            Ending::Closed if self.facts.iter().all(|(name, _)| name != CLOSING) => {
+                Ending::Truncated
+            }
+            ending => ending,
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::versions::Versions;
+use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 use logs::{Ending, FlightReader, LogError, Tick, cdr};
 
@@ -56,9 +58,6 @@ impl Reflight {
     /// When it is not a flight log, or its cockpit map cannot be read.
     pub fn open_across_versions(path: &Path) -> Result<Self, ReplayError> {
         let reader = FlightReader::open_across_versions(path)?;
-        if reader.same_model {
-            return Self::of(reader);
-        }
         let mut notes = Vec::new();
         let setup = &reader.setup;
         let mut aircraft = match aircraft::aircraft("aircraft.toml", &setup.aircraft_toml) {
@@ -69,14 +68,13 @@ impl Reflight {
             }
         };
         aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
-        let base = match aircraft::start("scenario.toml", &setup.scenario_toml) {
-            Ok(start) => start.state(&aircraft).unwrap_or_default(),
+        let state = match aircraft::start("scenario.toml", &setup.scenario_toml) {
+            Ok(start) => first_state(&reader, &aircraft, &start)?,
             Err(error) => {
                 notes.push(format!("what the first state lacks is 0: the log's {error}"));
-                State::default()
+                reader.initial
             }
         };
-        let state = reader.initial_over(&base)?;
         Ok(Self { reader, aircraft, state, message: Vec::new(), notes })
     }
 
@@ -86,11 +84,7 @@ impl Reflight {
         aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
         // The flight does not need it, but a log whose scenario cannot be read is not whole.
         let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
-        let state = if reader.has_todays_state() {
-            reader.initial
-        } else {
-            reader.initial_over(&start.state(&aircraft).unwrap_or_default())?
-        };
+        let state = first_state(&reader, &aircraft, &start)?;
         Ok(Self { reader, aircraft, state, message: Vec::new(), notes: Vec::new() })
     }
 
@@ -115,8 +109,29 @@ impl Reflight {
         &self.message
     }
 
+    /// What stands between the log's version and this one; `None` when nothing does. Channels count
+    /// once a message of theirs was read.
+    ///
+    /// # Errors
+    /// Never, for the structs that are recorded.
+    pub fn versions(&self) -> Result<Option<Versions>, ReplayError> {
+        Ok(Versions::of(self)?)
+    }
+
     /// How the log ends, once it has been flown.
     pub fn ending(&self) -> Ending {
         self.reader.ending().cloned().unwrap_or(Ending::Truncated)
     }
+}
+
+/// The state at the start: the log's, and what the log lacks as the scenario has it.
+fn first_state(
+    reader: &FlightReader,
+    aircraft: &Aircraft,
+    start: &Start,
+) -> Result<State, ReplayError> {
+    if reader.has_todays_state() {
+        return Ok(reader.initial);
+    }
+    Ok(reader.initial_over(&start.state(aircraft).unwrap_or_default())?)
 }

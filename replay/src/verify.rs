@@ -279,7 +279,11 @@ impl fmt::Display for Verdict {
         let more = if self.ending == Ending::Closed { "" } else { " or more" };
         let (exact, last) = (self.exact_tick(), self.last_tick());
         let (_, why) = self.stopped();
-        write!(f, "exact up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
+        let same = match self.outcome() {
+            Outcome::Compared => "the same in every field that both know",
+            _ => "exact",
+        };
+        write!(f, "{same} up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
         if let Some(divergence) = &self.divergence {
             write!(f, "\n{divergence}")?;
         }

@@ -38,13 +38,15 @@ impl Versions {
         }))
     }
 
-    /// Whether nothing that comes out of it is exact: another flight model, or recorded numbers of the
-    /// state that this program cannot give.
+    /// Whether nothing that comes out of it is exact: another flight model, another aircraft, or
+    /// recorded numbers of the state that this program cannot give.
     pub fn comparison(&self) -> bool {
         let unknown = |(topic, difference): &(&str, Difference)| {
             *topic == STATE && !difference.ignored.is_empty()
         };
-        self.recorded_model != self.model || self.differences.iter().any(unknown)
+        self.recorded_model != self.model
+            || !self.notes.is_empty()
+            || self.differences.iter().any(unknown)
     }
 }
 

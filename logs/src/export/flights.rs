@@ -105,10 +105,8 @@ impl Flight {
         let text = |name: &str, text: String| (Column::text(name), Fact::Text(text));
         let flown = self.ticks - self.first_tick.unwrap_or(self.ticks).min(self.ticks);
         let ending = match ending {
-            Ending::Closed if messages.facts().iter().any(|(name, _)| name == CLOSING) => {
-                "closed".into()
-            }
-            Ending::Closed | Ending::Truncated => "never closed".into(),
+            Ending::Closed => "closed".into(),
+            Ending::Truncated => "never closed".into(),
             Ending::Damaged(why) => format!("damaged: {why}"),
         };
         let mut row = vec![
