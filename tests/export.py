@@ -168,7 +168,7 @@ def main():
         falling = {row[at["tick"]]: real(row[at["plant_velocity_mps_z"]]) for row in rows}
         # tick, kind, value behind the time.
         for _, tick, kind, value in found.get("events", ([], []))[1]:
-            if (kind, value) == (6, 1) and tick - 1 in falling:
+            if (kind, value) == (7, 1) and tick - 1 in falling:
                 sinks[flight, tick] = falling[tick - 1]
     assert {row[0]: row[1] for row in answers["load_factor"]} == peaks, "load factors"
     assert len(peaks) >= 2, "conversions were flown"
