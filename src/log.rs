@@ -27,6 +27,17 @@ pub enum Command {
     Cat(cat::Args),
     /// Logs as tables, CSV or Parquet, units in the columns' names: a folder a channel, a file a flight
     Export(export::Args),
+    /// A proper log from a broken one: every tick up to the first bad one
+    Recover {
+        /// The broken log
+        broken: PathBuf,
+        /// The log to be written
+        #[arg(long, value_name = "FILE")]
+        out: PathBuf,
+        /// Overwrite an existing log
+        #[arg(long)]
+        force: bool,
+    },
 }
 
 /// Carries it out.
@@ -35,6 +46,7 @@ pub fn run(command: &Command) -> Result<ExitCode> {
         Command::Info { log } => info(log),
         Command::Cat(args) => cat::run(args),
         Command::Export(args) => export::run(args),
+        Command::Recover { broken, out, force } => recover(broken, out, *force),
     }
 }
 
@@ -110,10 +122,37 @@ fn info(log: &Path) -> Result<ExitCode> {
         (Some(error), _) => format!("unusable from here: {error}"),
         (None, Some(Ending::Closed)) => "closed".into(),
         (None, Some(Ending::Damaged(why))) => format!("damaged from here: {why}"),
+        (None, Some(Ending::Truncated)) if reader.recovered_from().is_some() => {
+            "recovered: the flight went on, this log does not".into()
+        }
         (None, _) => "not closed: killed, or cut".into(),
     };
     say!("  {:<16} {ending}", "end of the log");
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
+}
+
+fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {
+    let done = logs::recover(broken, out, force).with_context(|| broken.display().to_string())?;
+    say!(
+        "{}: kept {} ticks ({:.3} s) of {}, each proven by its checksum and digest",
+        out.display(),
+        done.tick,
+        done.tick as f64 * STEP_S,
+        broken.display()
+    );
+    say!("lost       all after tick {}: {}", done.tick, done.reason);
+    if done.ticks_distrusted > 0 {
+        say!("           {} ticks after it can be read, but not trusted", done.ticks_distrusted);
+    }
+    if done.messages_foreign > 0 {
+        say!("           {} messages on channels of others", done.messages_foreign);
+    }
+    say!(
+        "size       {:.1} kB of {:.1} kB",
+        done.bytes_written as f64 * 1e-3,
+        done.bytes_read as f64 * 1e-3
+    );
+    Ok(ExitCode::SUCCESS)
 }
 
 fn say_facts(of: &str, facts: &BTreeMap<String, String>) {

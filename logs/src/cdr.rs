@@ -58,6 +58,12 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, LogError> {
     }
 }
 
+/// The number at that place of a recorded struct's message.
+pub(crate) fn word(message: &[u8], place: usize) -> Option<u64> {
+    let start = HEADER.len() + size_of::<u64>() * place;
+    message.get(start..)?.first_chunk::<8>().map(|word| u64::from_le_bytes(*word))
+}
+
 /// A view message: any serde struct, with strings and lists.
 ///
 /// # Errors

@@ -73,6 +73,11 @@ impl Mapping {
         cdr::decode(&ours)
     }
 
+    /// One of today's numbers, by its place, out of a message of the log.
+    fn word(&self, message: &[u8], place: usize) -> Option<u64> {
+        cdr::word(message, self.sources.get(place).copied().flatten()?)
+    }
+
     /// What the two layouts do not have in common.
     ///
     /// # Errors
@@ -161,6 +166,14 @@ impl Mappings {
         match &self.state {
             Some(mapping) => Ok(mapping.decode(message, &record)?.state),
             None => Ok(cdr::decode::<StateRecord>(message)?.state),
+        }
+    }
+
+    /// The tick of a `/state` message, without a look at the rest.
+    pub fn tick_of(&self, message: &[u8]) -> Option<u64> {
+        match &self.state {
+            Some(mapping) => mapping.word(message, StateRecord::TICK),
+            None => cdr::word(message, StateRecord::TICK),
         }
     }
 

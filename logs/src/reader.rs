@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufReader, Read};
-use std::path::Path;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use engine::inputs::DeviceEvent;
@@ -14,9 +14,13 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::compact::Open;
+use crate::compact::expander::Expander;
 use crate::evolution::{Difference, Mappings};
 use crate::fields::Field;
+use crate::index::Index;
 use crate::layout::Layout;
+use crate::raw::{Raw, parse_record};
 use crate::records::{
     Chain, EVENTS, EventRecord, FORMAT_VERSION, FORMATS_READ, HARDWARE, INPUTS, InputsRecord,
     OUTPUTS, STATE, StateRecord, TIMING, TimingRecord, first_digest,
@@ -72,8 +76,12 @@ pub struct FlightReader {
     pub identity: Identity,
     /// Metadata records that are not known here: name, keys and values.
     pub other_facts: Vec<(String, BTreeMap<String, String>)>,
+    /// The aircraft's shape for viewers, URDF.
+    pub robot_description: String,
     /// State at the start.
     pub initial: State,
+    /// Nothing is read after the state of this tick.
+    pub until_tick: Option<u64>,
     /// Whether the files and the state at the start are those of the first digest.
     pub intact: bool,
     /// The same version of the flight model as this program's.
@@ -84,6 +92,8 @@ pub struct FlightReader {
     pending: Pending,
     /// Tick and digest of the last state read.
     last: (u64, u64),
+    /// Whether every digest so far follows from the one before.
+    unbroken: bool,
     /// The writer's last word.
     closing: Option<LastWord>,
     /// Events in the order they were recorded.
@@ -111,27 +121,34 @@ impl FlightReader {
     ///
     /// # Errors
     /// When the file cannot be read, is not MCAP, is not a flight of ours, or was flown by another
-    /// version of the flight model.
+    /// version of the flight model; [`LogError::Compacted`] for a compacted log, which
+    /// [`FlightReader::open_any`] reads as well.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let reader = Self::open_across_versions(path)?;
-        if reader.same_model {
-            return Ok(reader);
-        }
-        let theirs = reader.identity.get(Identity::MODEL).into();
-        Err(LogError::Version { what: "flight model", theirs, ours: engine::MODEL_VERSION })
+        Self::open_across_versions(path)?.of_this_model()
+    }
+
+    /// Opens a log, compacted or not, and reads up to the state at the start. `open` makes the
+    /// aircraft that flies what a compacted log leaves out.
+    ///
+    /// # Errors
+    /// As for [`FlightReader::open`].
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Self::of(Records::open(path, Some(open))?)?.of_this_model()
     }
 
     /// Opens a log, whatever version of the flight model flew it. Its messages become today's structs
     /// by the names of their fields; [`FlightReader::differences`] says which ones did not.
     ///
     /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours; [`LogError::Compacted`]
+    /// for a compacted log, whose states are this version's or nobody's.
     pub fn open_across_versions(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        if file.metadata().map_err(LogError::Open)?.is_dir() {
-            return Err(LogError::NotAFlight("a folder".into()));
-        }
-        Self::read(file)
+        Self::of(Records::open(path, None)?)
+    }
+
+    fn of_this_model(self) -> Result<Self, LogError> {
+        refuse_other_versions(&self.identity)?;
+        Ok(self)
     }
 
     /// Reads a log from anywhere, up to the state at the start.
@@ -139,7 +156,11 @@ impl FlightReader {
     /// # Errors
     /// When it is not MCAP, or not a flight of ours.
     pub fn read(source: impl Read + Send + 'static) -> Result<Self, LogError> {
-        let mut records = Records::new(source);
+        Self::of(Records::new(source))
+    }
+
+    fn of(mut records: Records) -> Result<Self, LogError> {
+        let mut robot_description = String::new();
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
@@ -171,6 +192,9 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
+                Some(Item::Message(message)) if message.topic() == view::ROBOT_DESCRIPTION => {
+                    robot_description = view::text(&message.data)?;
+                }
                 Some(Item::Message(message)) if message.topic() == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
@@ -189,8 +213,11 @@ impl FlightReader {
                         other_facts,
                         mappings,
                         first: message.data,
+                        robot_description,
                         initial: first.state,
+                        until_tick: None,
                         intact: digest == first.digest,
+                        unbroken: digest == first.digest,
                         chain: Chain::from(first.digest),
                         pending: Pending::default(),
                         last: (first.state.tick, first.digest),
@@ -198,13 +225,16 @@ impl FlightReader {
                         happenings: Vec::new(),
                         remarks: Vec::new(),
                         timings: Vec::new(),
-                        outputs: Vec::new(),
                         keep_outputs: false,
+                        outputs: Vec::new(),
                         ending: None,
                     });
                 }
                 Some(_) => {}
                 None => {
+                    if let Some(error) = records.refused.take() {
+                        return Err(error);
+                    }
                     return Err(match records.ending() {
                         Ending::Damaged(why) => LogError::NotAFlight(why),
                         _ if identity.is_some() => no_flight("it ends before the first state"),
@@ -220,6 +250,11 @@ impl FlightReader {
     /// # Errors
     /// When the messages do not make a flight: out of order, missing, or of another layout.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
+        if self.until_tick.is_some_and(|until| self.last.0 >= until) {
+            // As far as it was wanted, it is whole.
+            self.ending = Some(Ending::Closed);
+            return Ok(None);
+        }
         loop {
             let Some(item) = self.records.next() else {
                 self.ending = Some(self.end()?);
@@ -259,15 +294,15 @@ impl FlightReader {
                     let timing = self.decode(&channel, &data)?;
                     self.timings.push(timing);
                 }
-                OUTPUTS if self.keep_outputs => {
-                    let outputs = self.decode(&channel, &data)?;
-                    self.outputs.push(outputs);
-                }
                 EVENTS => {
                     let happening = self.decode(&channel, &data)?;
                     self.happenings.push(happening);
                 }
                 view::LOG => self.remarks.push(view::remark(&data)?),
+                OUTPUTS if self.keep_outputs => {
+                    let outputs = self.decode(&channel, &data)?;
+                    self.outputs.push(outputs);
+                }
                 _ => {}
             }
         }
@@ -294,8 +329,9 @@ impl FlightReader {
         if closing.last != self.last || sealed && closing.messages.is_none() {
             return Ok(Ending::Truncated);
         }
-        // The chain says that the flight is what was flown: it is something beside it.
-        if sealed && closing.messages != Some(self.records.roll_call.digest()) {
+        // When the chain says that the flight is what was flown, it is something beside it.
+        let all_read = self.unbroken && !self.records.sought;
+        if sealed && all_read && closing.messages != Some(self.records.roll_call.digest()) {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, what any is \
                  called, its order or time) is not as written, though every checksum is right: a tool that \
@@ -325,6 +361,7 @@ impl FlightReader {
         }
         let raw = without_digest(data);
         let chained = self.chain.close(&raw) == record.digest;
+        self.unbroken &= chained;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
         self.last = (tick, record.digest);
@@ -377,6 +414,79 @@ impl FlightReader {
         self.mappings.differences()
     }
 
+    /// Begins at the recorded state of a tick, found by the log's index where it has one.
+    ///
+    /// # Errors
+    /// [`LogError::Outside`], or what is wrong with the log up to there.
+    pub fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        let first = self.initial.tick;
+        if tick == self.last.0 {
+            return Ok(());
+        }
+        if tick < self.last.0 {
+            return Err(LogError::Outside { tick, first, last: self.last_tick() });
+        }
+        self.records.seek(tick)?;
+        self.pending = Pending::default();
+        loop {
+            match self.records.next() {
+                Some(Item::Message(message)) if message.topic() == STATE => {
+                    let Message { channel, data, .. } = message;
+                    // Of all the states that are passed by, only the tick is looked at.
+                    let found = self.mappings.tick_of(&data).unwrap_or(0);
+                    if found > tick {
+                        return Err(LogError::Order(format!("tick {tick} is not there")));
+                    }
+                    self.last.0 = found;
+                    if found == tick {
+                        let record: StateRecord = self.decode(&channel, &data)?;
+                        self.first = data;
+                        self.initial = record.state;
+                        self.chain = Chain::from(record.digest);
+                        self.last = (tick, record.digest);
+                        return Ok(());
+                    }
+                }
+                Some(Item::Metadata(name, facts)) if name == CLOSING => {
+                    self.closing = last_word(&facts);
+                }
+                Some(_) => {}
+                None => {
+                    return Err(match self.records.ending() {
+                        Ending::Damaged(why) => LogError::Order(format!("damaged: {why}")),
+                        _ => LogError::Outside { tick, first, last: self.last_tick() },
+                    });
+                }
+            }
+        }
+    }
+
+    /// The last tick as the writer closed the log, or as far as it was read.
+    fn last_tick(&self) -> u64 {
+        self.closing.map_or(self.last.0, |closing| closing.last.0.max(self.last.0))
+    }
+
+    /// Digest of the state that was read last; at first, of the state at the start.
+    pub fn digest(&self) -> u64 {
+        self.last.1
+    }
+
+    /// Whether the last state is as it was recorded. In a compacted log, states between keyframes are
+    /// flown again.
+    pub fn is_recorded(&self) -> bool {
+        self.records.expander.as_ref().is_none_or(|expander| expander.recorded)
+    }
+
+    /// In a compacted log, the last tick as it was flown again while reading.
+    pub fn flown(&self) -> Option<(&State, &Outputs)> {
+        self.records.expander.as_ref()?.flown()
+    }
+
+    /// Whether the log is compacted.
+    pub fn is_compacted(&self) -> bool {
+        self.records.expander.is_some()
+    }
+
     /// What no checksum found and is not as written, so far.
     pub fn oddity(&self) -> Option<&str> {
         self.records.oddity.as_deref()
@@ -391,6 +501,7 @@ impl FlightReader {
     pub fn forget(&mut self) {
         self.timings.clear();
         self.happenings.clear();
+        self.outputs.clear();
         self.remarks.clear();
     }
 
@@ -400,11 +511,16 @@ impl FlightReader {
     }
 }
 
+/// So many ticks after a state, viewers' messages of its tick are written, too.
+const PAST_TICKS: u64 = 2500;
+
 /// Every message of a log as it stands there, whatever its channel.
 pub struct Messages {
     records: Records,
     facts: Vec<(String, BTreeMap<String, String>)>,
     files: Vec<(String, Vec<u8>)>,
+    from_tick: u64,
+    until_tick: u64,
 }
 
 /// One message.
@@ -425,11 +541,20 @@ impl Messages {
     /// # Errors
     /// When the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        if file.metadata().map_err(LogError::Open)?.is_dir() {
-            return Err(LogError::NotAFlight("a folder".into()));
-        }
-        Ok(Self { records: Records::new(file), facts: Vec::new(), files: Vec::new() })
+        Ok(Self::of(Records::open(path, None)?))
+    }
+
+    /// Opens a log, compacted or not.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Ok(Self::of(Records::open(path, Some(open))?))
+    }
+
+    fn of(records: Records) -> Self {
+        let (facts, files) = (Vec::new(), Vec::new());
+        Self { records, facts, files, from_tick: 0, until_tick: u64::MAX }
     }
 
     /// The metadata records that came so far: name, keys and values.
@@ -440,6 +565,18 @@ impl Messages {
     /// The attachments that came so far: name and bytes.
     pub fn files(&self) -> &[(String, Vec<u8>)] {
         &self.files
+    }
+
+    /// Only the messages from one tick to another; those before are not read where the log's index
+    /// says where they are.
+    ///
+    /// # Errors
+    /// When the log cannot be read.
+    pub fn limit(&mut self, from_tick: u64, until_tick: u64) -> Result<(), LogError> {
+        (self.from_tick, self.until_tick) = (from_tick, until_tick);
+        // The channels are defined before the first message.
+        while self.records.channels.is_empty() && self.records.next().is_some() {}
+        if from_tick > 0 { self.records.seek(from_tick) } else { Ok(()) }
     }
 
     /// How the file ends, once the last message has been read.
@@ -460,7 +597,16 @@ impl Iterator for Messages {
     fn next(&mut self) -> Option<Message> {
         loop {
             match self.records.next()? {
-                Item::Message(message) => return Some(message),
+                Item::Message(message) => {
+                    let tick = message.time_ns / engine::STEP_NS;
+                    // What viewers draw is written after the states, but not ten seconds after.
+                    if tick > self.until_tick.saturating_add(PAST_TICKS) {
+                        return None;
+                    }
+                    if (self.from_tick..=self.until_tick).contains(&tick) {
+                        return Some(message);
+                    }
+                }
                 Item::Metadata(name, facts) => self.facts.push((name, facts)),
                 Item::Attachment(name, data) => self.files.push((name, data)),
             }
@@ -501,9 +647,9 @@ fn no_flight(why: &str) -> LogError {
 
 /// With what the writer closed the log.
 #[derive(Clone, Copy, Debug)]
-struct LastWord {
+pub(crate) struct LastWord {
     /// Tick and digest of the last state.
-    last: (u64, u64),
+    pub last: (u64, u64),
     /// Roll call of all messages; `None` without a seal.
     messages: Option<u64>,
 }
@@ -511,10 +657,23 @@ struct LastWord {
 /// The log format that knew no seals.
 const UNSEALED: &str = "1";
 
-fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
+pub(crate) fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
     let number = |key| facts.get(key).and_then(|text| text.parse().ok());
     let last = number(CLOSING_TICK).zip(number(CLOSING_DIGEST))?;
     Some(LastWord { last, messages: number(CLOSING_MESSAGES).filter(|_| is_whole(facts)) })
+}
+
+pub(crate) fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
+    refuse_other_formats(identity)?;
+    let theirs = identity.get(Identity::MODEL);
+    if theirs == engine::MODEL_VERSION {
+        return Ok(());
+    }
+    Err(LogError::Version {
+        what: "flight model",
+        theirs: theirs.into(),
+        ours: engine::MODEL_VERSION,
+    })
 }
 
 fn refuse_other_formats(identity: &Identity) -> Result<(), LogError> {
@@ -566,6 +725,8 @@ enum Part {
 
 /// Records of the file, up to its end or the first damage.
 struct Records {
+    /// Where it is, if it is a file.
+    path: Option<PathBuf>,
     source: BufReader<Box<dyn Read + Send>>,
     reader: LinearReader,
     /// The last bytes that were read.
@@ -577,19 +738,56 @@ struct Records {
     /// The first thing that no checksum found and that is not as written.
     oddity: Option<String>,
     ending: Ending,
+    /// Makes the records of a compacted log.
+    expander: Option<Box<Expander>>,
+    /// Reading went on somewhere else in the file.
+    sought: bool,
+    /// What is no damage: a log that is not for this program.
+    refused: Option<LogError>,
 }
 
 impl Records {
+    /// Opens a log; one that is compacted only if its states can be flown again.
+    fn open(path: &Path, open: Option<Open>) -> Result<Self, LogError> {
+        let file = File::open(path).map_err(LogError::Open)?;
+        if file.metadata().map_err(LogError::Open)?.is_dir() {
+            return Err(LogError::NotAFlight("a folder".into()));
+        }
+        let mut records = Self { path: Some(path.into()), ..Self::new(file) };
+        let nobody: Open = |_| Err(LogError::Compacted);
+        if let Some(expander) = Expander::open(path, open.unwrap_or(nobody), false)? {
+            if open.is_none() {
+                return Err(LogError::Compacted);
+            }
+            records.expander = Some(Box::new(expander));
+        }
+        Ok(records)
+    }
+
+    /// Goes where the state of a tick is not far ahead, if the log's index says where.
+    fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        self.sought = true;
+        if let Some(expander) = &mut self.expander {
+            return expander.seek(tick);
+        }
+        let Some(path) = &self.path else { return Ok(()) };
+        let Some(index) = Index::read(path) else { return Ok(()) };
+        let Some(place) = index.chunk_of(tick).filter(|&place| place > 0) else { return Ok(()) };
+        let mut file = File::open(path).map_err(LogError::Open)?;
+        file.seek(SeekFrom::Start(index.chunks[place].offset))?;
+        self.source = BufReader::with_capacity(BUFFER_BYTES, Box::new(file));
+        // Chunks keep their own checksums; that of the whole file cannot be looked at any more.
+        let options = options().with_skip_start_magic(true).with_validate_data_section_crc(false);
+        self.reader = LinearReader::new_with_options(options);
+        self.part = Part::Data;
+        Ok(())
+    }
+
     fn new(source: impl Read + Send + 'static) -> Self {
-        let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_validate_data_section_crc(true)
-            .with_validate_summary_section_crc(true)
-            .with_check_finishes_after_end_magic(true)
-            .with_record_length_limit(RECORD_BYTES_MAX);
         Self {
+            path: None,
             source: BufReader::with_capacity(BUFFER_BYTES, Box::new(source)),
-            reader: LinearReader::new_with_options(options),
+            reader: LinearReader::new_with_options(options()),
             tail: Vec::with_capacity(2 * mcap::MAGIC.len()),
             part: Part::Start,
             definitions: BTreeMap::new(),
@@ -597,6 +795,9 @@ impl Records {
             roll_call: RollCall::default(),
             oddity: None,
             ending: Ending::Closed,
+            expander: None,
+            sought: false,
+            refused: None,
         }
     }
 
@@ -611,6 +812,9 @@ impl Records {
     fn next(&mut self) -> Option<Item> {
         if self.ending != Ending::Closed {
             return None;
+        }
+        if self.expander.is_some() {
+            return self.expanded();
         }
         match self.read() {
             Ok(item) => item,
@@ -629,6 +833,49 @@ impl Records {
         }
     }
 
+    /// The next record of a compacted log.
+    fn expanded(&mut self) -> Option<Item> {
+        loop {
+            match self.expander.as_mut()?.next() {
+                Ok(Some(Raw::Schema { id, name, encoding, data: text })) => {
+                    self.definitions.insert(id, Arc::new(Definition { name, encoding, text }));
+                }
+                Ok(Some(Raw::Channel(channel))) => self.meet(channel),
+                Ok(Some(Raw::Message(header, data))) => {
+                    if let Some(channel) = self.channels.get(&header.channel_id).cloned() {
+                        let stamp = Stamp {
+                            sequence: header.sequence,
+                            log_time_ns: header.log_time,
+                            publish_time_ns: header.publish_time,
+                        };
+                        self.roll_call.add(&channel.topic, &channel.definition.text, stamp, &data);
+                        let time_ns = header.log_time;
+                        return Some(Item::Message(Message { channel, time_ns, data, stamp }));
+                    }
+                }
+                Ok(Some(Raw::Metadata(record))) => {
+                    return Some(Item::Metadata(record.name, record.metadata));
+                }
+                Ok(Some(Raw::Attachment(header, data))) => {
+                    return Some(Item::Attachment(header.name, data));
+                }
+                Ok(Some(_)) => {}
+                Ok(None) => return None,
+                Err(LogError::Mcap(McapError::UnexpectedEof)) => {
+                    self.ending = Ending::Truncated;
+                    return None;
+                }
+                Err(error) => {
+                    self.ending = Ending::Damaged(error.to_string());
+                    if matches!(error, LogError::Version { .. } | LogError::Setup(_)) {
+                        self.refused = Some(error);
+                    }
+                    return None;
+                }
+            }
+        }
+    }
+
     fn read(&mut self) -> Result<Option<Item>, McapError> {
         while let Some(event) = self.reader.next_event() {
             match event? {
@@ -639,11 +886,7 @@ impl Records {
                     self.reader.notify_read(read);
                 }
                 LinearReadEvent::Record { data, opcode } => {
-                    if opcode == mcap::records::op::ATTACHMENT && !attachment_fits(data) {
-                        self.ending = Ending::Damaged("a file's record is too short for it".into());
-                        return Ok(None);
-                    }
-                    let record = mcap::parse_record(opcode, data)?;
+                    let record = parse_record(opcode, data)?;
                     let part = part_of(&record, self.part);
                     if let Some(what) = misplaced(&record, part, self.part) {
                         self.ending = Ending::Damaged(what);
@@ -718,24 +961,6 @@ impl Records {
     }
 }
 
-/// Whether an attachment's name, media type and checksum lie inside its record: mcap 0.26 takes that
-/// for granted.
-fn attachment_fits(record: &[u8]) -> bool {
-    const TIMES: usize = 2 * size_of::<u64>();
-    const DATA_LENGTH: usize = size_of::<u64>();
-    const CRC: usize = size_of::<u32>();
-    let mut at = TIMES;
-    for _name_and_media_type in 0..2 {
-        let Some(length) = record.get(at..).and_then(|rest| rest.first_chunk()) else {
-            return false;
-        };
-        at = at
-            .saturating_add(size_of::<u32>())
-            .saturating_add(u32::from_le_bytes(*length) as usize);
-    }
-    at.saturating_add(DATA_LENGTH + CRC) <= record.len()
-}
-
 /// Keeps the last bytes, as many as the magic number has.
 fn remember(tail: &mut Vec<u8>, read: &[u8]) {
     let kept = mcap::MAGIC.len();
@@ -785,4 +1010,13 @@ fn in_words(error: &McapError) -> String {
         error => return error.to_string(),
     };
     format!("{what} is not as written ({error})")
+}
+
+fn options() -> LinearReaderOptions {
+    LinearReaderOptions::default()
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_data_section_crc(true)
+        .with_validate_summary_section_crc(true)
+        .with_check_finishes_after_end_magic(true)
+        .with_record_length_limit(RECORD_BYTES_MAX)
 }

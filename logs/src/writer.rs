@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Seek};
 use std::path::Path;
 
-use engine::frames::{Attitude, Vec3};
+use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Outputs, State};
 use mcap::records::MessageHeader;
+use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
@@ -26,7 +27,7 @@ use crate::view::{self, Level};
 use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
-const CHUNK_BYTES: u64 = 128 * 1024;
+pub(crate) const CHUNK_BYTES: u64 = 128 * 1024;
 /// The longest text that fits into a log, with room for its record's frame.
 const TEXT_BYTES_MAX: usize = RECORD_BYTES_MAX - 1024;
 /// Ticks between frames, stick positions and joints for viewers: 50 Hz.
@@ -54,7 +55,8 @@ struct Channels {
 
 /// A flight being written.
 pub struct FlightWriter {
-    mcap: Writer<BufWriter<File>>,
+    /// Never seeks: a pipe will do.
+    mcap: Writer<NoSeek<BufWriter<File>>>,
     channels: Channels,
     kinds: BTreeMap<u16, &'static Kind>,
     chain: Chain,
@@ -63,8 +65,7 @@ pub struct FlightWriter {
     begun: bool,
     last_tick: u64,
     message: Vec<u8>,
-    pivot_m: Vec3<engine::frames::Structural>,
-    mast_m: f64,
+    shape: view::Shape,
 }
 
 /// How a log ended.
@@ -91,15 +92,15 @@ impl FlightWriter {
         force: bool,
     ) -> Result<Self, LogError> {
         let mut writer = Self::begin(path, setup, identity, force)?;
-        writer.pivot_m = aircraft.rotors.pivot_m;
-        writer.mast_m = aircraft.rotors.mast_length_m;
+        writer.shape = view::Shape::of(aircraft);
         let text = cdr::encode_view(&view::Text { data: robot_description })?;
-        writer.put(writer.channels.description, 0, &text)?;
+        writer.put(writer.channels.description, initial.tick, &text)?;
         let digest = first_digest(&setup.files(), &cdr::encode(initial)?);
         writer.chain = Chain::from(digest);
         writer.last_tick = initial.tick;
         writer.begun = true;
-        writer.record(writer.channels.state, 0, &StateRecord { digest, state: *initial })?;
+        let first = StateRecord { digest, state: *initial };
+        writer.record(writer.channels.state, initial.tick, &first)?;
         writer.flush()?;
         Ok(writer)
     }
@@ -131,7 +132,7 @@ impl FlightWriter {
             .library(concat!("tiltrotor ", env!("CARGO_PKG_VERSION")))
             .chunk_size(Some(CHUNK_BYTES))
             .disable_seeking(true)
-            .create(BufWriter::new(file))?;
+            .create(NoSeek::new(BufWriter::new(file)))?;
         let mut facts = identity.0.clone();
         seal(&mut facts);
         mcap.write_metadata(&mcap::records::Metadata { name: METADATA.into(), metadata: facts })?;
@@ -178,8 +179,7 @@ impl FlightWriter {
             begun: false,
             last_tick: 0,
             message: Vec::with_capacity(8192),
-            pivot_m: Vec3::default(),
-            mast_m: 0.0,
+            shape: view::Shape::default(),
         })
     }
 
@@ -282,21 +282,20 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn view(&mut self, outputs: &Outputs, attitude: Attitude) -> Result<(), LogError> {
         let tick = outputs.tick;
-        if tick.is_multiple_of(OUTPUT_TICKS) {
-            self.record(self.channels.outputs, tick, outputs)?;
-        }
-        if tick.is_multiple_of(VIEW_TICKS) {
-            let pivot = self.pivot_m.from_cg(outputs.balance.cg_m);
-            let tf = cdr::encode_view(&view::tf(outputs, attitude, pivot, self.mast_m))?;
-            self.put(self.channels.tf, tick, &tf)?;
-            let joy = cdr::encode_view(&view::joy(outputs))?;
-            self.put(self.channels.joy, tick, &joy)?;
-            let joints = cdr::encode_view(&view::joint_states(outputs))?;
-            self.put(self.channels.joints, tick, &joints)?;
-        }
-        if tick.is_multiple_of(FIX_TICKS) {
-            let fix = cdr::encode_view(&view::fix(outputs))?;
-            self.put(self.channels.fix, tick, &fix)?;
+        let channels = &self.channels;
+        let due = [
+            (channels.outputs, OUTPUTS, OUTPUT_TICKS),
+            (channels.tf, view::TF, VIEW_TICKS),
+            (channels.joy, view::JOY, VIEW_TICKS),
+            (channels.joints, view::JOINT_STATES, VIEW_TICKS),
+            (channels.fix, view::FIX, FIX_TICKS),
+        ];
+        for (channel, topic, ticks) in due {
+            if tick.is_multiple_of(ticks)
+                && let Some(message) = view::message(topic, outputs, attitude, &self.shape)?
+            {
+                self.put(channel, tick, &message)?;
+            }
         }
         Ok(())
     }
@@ -325,8 +324,10 @@ impl FlightWriter {
         self.mcap
             .write_metadata(&mcap::records::Metadata { name: CLOSING.into(), metadata: facts })?;
         self.mcap.finish()?;
-        let file = self.mcap.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
-        Ok(Closed { bytes: file.metadata()?.len(), digest })
+        let mut whole = self.mcap.into_inner();
+        let bytes = whole.stream_position()?;
+        whole.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
+        Ok(Closed { bytes, digest })
     }
 
     /// Writes a recorded struct; its bytes stay in `self.message`.

@@ -1,6 +1,7 @@
 //! Rerunning a flight log: bit-exact verification, and the review in the rerun viewer.
 
 pub mod compare;
+mod diff;
 mod divergence;
 pub mod growth;
 mod refly;
@@ -10,6 +11,9 @@ mod versions;
 #[cfg(feature = "rerun")]
 pub mod view;
 
+pub use diff::{
+    Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
+};
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use refly::{Reflight, Reflown, ReplayError};
 pub use stage::Stage;

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::versions::Versions;
 use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, step};
-use logs::{Ending, FlightReader, LogError, Tick, cdr};
+use logs::{Ending, FlightReader, LogError, Setup, Tick, cdr};
 
 /// Why a log cannot be reflown.
 #[derive(Debug, thiserror::Error)]
@@ -80,8 +80,7 @@ impl Reflight {
 
     fn of(reader: FlightReader) -> Result<Self, ReplayError> {
         let setup = &reader.setup;
-        let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
-        aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+        let aircraft = aircraft_of(setup)?;
         // The flight does not need it, but a log whose scenario cannot be read is not whole.
         let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
         let state = first_state(&reader, &aircraft, &start)?;
@@ -134,4 +133,11 @@ fn first_state(
         return Ok(reader.initial);
     }
     Ok(reader.initial_over(&start.state(aircraft).unwrap_or_default())?)
+}
+
+/// The aircraft of a log, with its cockpit map.
+pub(crate) fn aircraft_of(setup: &Setup) -> Result<Aircraft, ReplayError> {
+    let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
+    aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+    Ok(aircraft)
 }

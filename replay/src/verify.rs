@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
-use logs::{Ending, LogError, Tick, cdr};
+use logs::{Ending, Identity, LogError, Recovery, Tick, cdr};
 
 use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
@@ -48,6 +48,8 @@ pub struct Verdict {
     pub digest: u64,
     /// What stands between the log's version and this one; `None` when nothing does.
     pub versions: Option<Box<Versions>>,
+    /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
+    pub recovered: Option<String>,
 }
 
 /// In one word.
@@ -118,15 +120,16 @@ impl Verdict {
         if let Some(disorder) = &self.disorder {
             return ("disorder", disorder.clone());
         }
-        match &self.ending {
-            Ending::Damaged(why) => ("damaged", format!("the file is damaged: {why}")),
-            Ending::Truncated => (
+        match (&self.ending, &self.recovered) {
+            (Ending::Damaged(why), _) => ("damaged", format!("the file is damaged: {why}")),
+            (Ending::Truncated, Some(recovered)) => ("recovered", recovered.clone()),
+            (Ending::Truncated, None) => (
                 "never_closed",
                 "the log ends without having been closed: the flight was killed or the file was \
                  cut, and what came after is lost"
                     .into(),
             ),
-            Ending::Closed => ("closed", "the log ends as its writer closed it".into()),
+            (Ending::Closed, _) => ("closed", "the log ends as its writer closed it".into()),
         }
     }
 }
@@ -158,6 +161,7 @@ pub fn verify(
         disorder: None,
         digest: 0,
         versions: None,
+        recovered: recovered(&flight.reader.identity),
     };
     let mut last_input = LastInput::new()?;
     let mut watch = Watch::new()?;
@@ -213,8 +217,7 @@ pub fn verify(
             watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
         }
         before = recorded.record.state;
-        flight.reader.timings.clear();
-        flight.reader.outputs.clear();
+        flight.reader.forget();
         progress(verdict.ticks);
     }
     if let Some(divergence) = &mut verdict.divergence {
@@ -223,6 +226,12 @@ pub fn verify(
     verdict.ending = flight.ending();
     verdict.versions = Versions::of(&flight)?.map(Box::new);
     Ok(verdict)
+}
+
+fn recovered(identity: &Identity) -> Option<String> {
+    let parent = identity.0.get(Recovery::PARENT)?;
+    let (tick, reason) = (identity.get(Recovery::TICK), identity.get(Recovery::REASON));
+    Some(format!("it was recovered from {parent} up to tick {tick}, because {reason}"))
 }
 
 /// Single steps from the recorded states.
@@ -278,12 +287,15 @@ impl fmt::Display for Verdict {
         }
         let more = if self.ending == Ending::Closed { "" } else { " or more" };
         let (exact, last) = (self.exact_tick(), self.last_tick());
-        let (_, why) = self.stopped();
+        let (stopped, why) = self.stopped();
         let same = match self.outcome() {
             Outcome::Compared => "the same in every field that both know",
             _ => "exact",
         };
         write!(f, "{same} up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
+        if let Some(recovered) = self.recovered.as_ref().filter(|_| stopped != "recovered") {
+            write!(f, "\n{recovered}")?;
+        }
         if let Some(divergence) = &self.divergence {
             write!(f, "\n{divergence}")?;
         }
