@@ -253,7 +253,9 @@ impl FlightReader {
                 EVENTS => self.happenings.push(cdr::decode(&data)?),
                 view::LOG => self.remarks.push(view::remark(&data)?),
                 // No flight depends on it: one of another form is none.
-                OUTPUTS if self.keep_outputs => self.outputs.extend(cdr::decode(&data).ok()),
+                OUTPUTS if self.keep_outputs => {
+                    self.outputs.extend(cdr::decode::<Outputs>(&data).ok());
+                }
                 _ => {}
             }
         }
