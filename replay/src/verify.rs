@@ -11,17 +11,20 @@ use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
 use crate::growth::WINDOW_TICKS;
 use crate::refly::{Reflight, ReplayError};
+use crate::versions::Versions;
 
 /// How to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Ticks that are still reflown after the first difference, to see how it grows.
     pub growth_ticks: u64,
+    /// Fly logs of other versions of the flight model as well, as a comparison.
+    pub across_versions: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { growth_ticks: WINDOW_TICKS }
+        Self { growth_ticks: WINDOW_TICKS, across_versions: false }
     }
 }
 
@@ -44,6 +47,8 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
+    /// What stands between the log's version and this one; `None` when nothing does.
+    pub versions: Option<Box<Versions>>,
     /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
     pub recovered: Option<String>,
 }
@@ -59,6 +64,8 @@ pub enum Outcome {
     Damaged,
     /// The same to the last bit, as far as the log goes: it was never closed.
     Incomplete,
+    /// Flown by another version than recorded, or not comparable in every field: never exact.
+    Compared,
 }
 
 impl Outcome {
@@ -69,6 +76,7 @@ impl Outcome {
             Self::Diverged => "diverged",
             Self::Damaged => "damaged",
             Self::Incomplete => "incomplete",
+            Self::Compared => "compared",
         }
     }
 }
@@ -76,7 +84,10 @@ impl Outcome {
 impl Verdict {
     /// In one word.
     pub fn outcome(&self) -> Outcome {
-        if self.divergence.is_some() || self.altered.is_some() {
+        let comparison = self.versions.as_ref().is_some_and(|versions| versions.comparison());
+        if comparison && self.altered.is_none() && self.readable() {
+            Outcome::Compared
+        } else if self.divergence.is_some() || self.altered.is_some() {
             Outcome::Diverged
         } else if self.disorder.is_some() || matches!(self.ending, Ending::Damaged(_)) {
             Outcome::Damaged
@@ -85,6 +96,10 @@ impl Verdict {
         } else {
             Outcome::Exact
         }
+    }
+
+    fn readable(&self) -> bool {
+        self.disorder.is_none() && !matches!(self.ending, Ending::Damaged(_))
     }
 
     /// The last tick that is the same.
@@ -132,7 +147,11 @@ pub fn verify(
     options: &Options,
     mut progress: impl FnMut(u64),
 ) -> Result<Verdict, ReplayError> {
-    let mut flight = Reflight::open(path)?;
+    let mut flight = if options.across_versions {
+        Reflight::open_across_versions(path)?
+    } else {
+        Reflight::open(path)?
+    };
     let mut verdict = Verdict {
         start_tick: flight.state.tick,
         ticks: 0,
@@ -142,6 +161,7 @@ pub fn verify(
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        versions: None,
         recovered: recovered(&flight.reader.identity),
     };
     let mut last_input = LastInput::new()?;
@@ -207,6 +227,7 @@ pub fn verify(
         watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
     }
     verdict.ending = flight.ending();
+    verdict.versions = Versions::of(&flight)?.map(Box::new);
     Ok(verdict)
 }
 
@@ -273,10 +294,17 @@ impl fmt::Display for Verdict {
                 self.digest
             )?;
         }
+        if let Some(versions) = &self.versions {
+            writeln!(f, "{versions}")?;
+        }
         let more = if self.ending == Ending::Closed { "" } else { " or more" };
         let (exact, last) = (self.exact_tick(), self.last_tick());
         let (stopped, why) = self.stopped();
-        write!(f, "exact up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
+        let same = match self.outcome() {
+            Outcome::Compared => "the same in every field that both know",
+            _ => "exact",
+        };
+        write!(f, "{same} up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
         if let Some(recovered) = self.recovered.as_ref().filter(|_| stopped != "recovered") {
             write!(f, "\n{recovered}")?;
         }
