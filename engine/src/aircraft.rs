@@ -57,6 +57,8 @@ impl Aircraft {
             ("fcc.mixer.lateral_cyclic_norm", mixer.lateral_cyclic_norm.fault()),
             ("rotors.blade", self.rotors.blade.fault()),
             ("rotors.inflow.download_near_ground", self.rotors.inflow.download_near_ground.fault()),
+            ("fcc.governor.proportional", self.fcc.governor.proportional_rad_per_radps.fault()),
+            ("fcc.governor.integral", self.fcc.governor.integral_rad_per_rad.fault()),
             ("fcc.governor.collective_min", self.fcc.governor.collective_rad_min.fault()),
             ("actuators.nacelle", self.actuators.nacelle_radps.fault()),
             ("engines.power_by_lever", self.engines.power_by_lever_norm.fault()),

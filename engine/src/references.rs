@@ -12,6 +12,8 @@
 //!   1980. Flown rotor speeds, procedures, ceilings.
 //! - **CR176970**: Jordan, Patterson, Sandlin, *Approximate Determination of the Tilt Rotor Research
 //!   Aircraft Rotor/Wing Download*, 1986. Hover power and download in flight.
+//! - **TM89428**: Tischler, *Frequency-Response Identification of XV-15 Tilt-Rotor Aircraft Dynamics*,
+//!   NASA TM-89428, 1987. Responses of pitch and heave identified in flight, through transcriptions.
 //! - **KH**: Kleinhesselink, *Stability and Control Modeling of Tiltrotor Aircraft*, University of
 //!   Maryland, 2007. A low-order airframe model.
 //! - **TP04**: Acree, Peyran, Johnson, *Rotor Design Options for Improving XV-15 Whirl-Flutter Stability

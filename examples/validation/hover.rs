@@ -175,7 +175,7 @@ pub fn ceilings(aircraft: &Aircraft, book: &mut Book) {
         "Class A: NASA TM-81244 fig. 12, fitted lines.",
         "±800 ft: 200 ft of reading, the rest for what the weight of fuel and the engines' state were. \
          In ground effect the wheels are taken to be 2 ft over the ground; the source does not say. At \
-         13,000 lb and 8,000 ft a rotor flies at C_T .0135, where ours alone is 2.5 % better than the \
+         13,000 lb and 8,000 ft a rotor flies at C_T .0133, where ours alone is 2.5 % better than the \
          test (case 1, within its band): two thirds of the miss out of ground effect.",
     );
     for (weight_lb, out_ft, in_ft) in [(13_000.0, 7600.0, 11_200.0), (10_000.0, 16_500.0, 18_700.0)]

@@ -159,13 +159,13 @@ pub fn nacelles(aircraft: &Aircraft, book: &mut Book) {
         "Class B: GTRS; class A: flight; both digitised from Wang et al. 2025 fig. 1. At 60 and 0 deg with \
          the digitiser's known bias taken off (pitch +1.5 deg, power +45 kW).",
         "±1.5 deg, ±.5 in, ±8 %: twice the reading. Flaps 20/12.5, as an aeroplane 0 and 458 rpm. The power \
-         at 0 deg cannot be that of 458 rpm: GTRS' own growth takes its 1,208 kW at 220 kt to 1,600 kW at \
-         258 kt, where flight has 1,411 kW (case 7). At 589 rpm ours takes 579, 791 and 1,130 kW, 6 to 7 % \
-         less than GTRS, and 820 kW at 184 kt, 3 % less than flight, and the collective then stands as far \
-         from GTRS' as at every other nacelle angle. The thrust is the airframe's drag (10.4 ft²; 10 of \
-         CR-166536's tables), the efficiency .68 at 589 and .78 to .83 at 458 rpm. At 30 deg and 141 kt the \
-         drag is too large, in flight's fuel as in GTRS' power: the pylons', in the tables of the wing and \
-         again as interference.",
+         at 0 deg is not what flight takes at 458 rpm: GTRS' own growth makes 1,208 kW at 220 kt some 1,600 \
+         at 258 kt, where the masts took 1,411 kW (case 7). The figure does not say its rotor speed; 458 rpm \
+         was inferred from a blade angle that stands 0 deg from ours there, and 3.3 to 4.7 at every other \
+         nacelle angle. At 517 rpm, as first flown, it stands 3.0 to 3.5 from ours, which then takes 542, 735 \
+         and 1,037 kW, and 766 at 184 kt, 9 % less than flight; at 589 rpm 579, 791, 1,130 and 820 kW, 7 and \
+         3 % less. Thrust is not at fault (10.4 ft² of drag at 220 kt; 10 were estimated from CR-166536's \
+         tables). The efficiency is .78 to .83 at 458 rpm, .68 at 589.",
     );
     for point in POINTS.iter().filter(|point| point.nacelle_deg < 90.0) {
         rows(aircraft, &mut case, point);

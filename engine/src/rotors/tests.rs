@@ -223,6 +223,21 @@ fn the_disc_lags_a_turning_mast() {
     assert!(out.tilt_outboard_rad < 0.0);
 }
 
+/// Amer's effect: the force leans by 1 − 3/2·k/(1 + k) of the disc's lag, k = aσ/(16·λ0). The blade
+/// that is pitched up to turn the disc has more of its lift in the plane of the disc, the more the
+/// steeper the inflow comes: a loaded proprotor damps little over half of what T·h·16/(γ*Ω) says.
+#[test]
+fn the_force_of_a_turning_rotor_leans_less_than_its_disc() {
+    let params = ideal();
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.motion.angular_rate_radps.y = 0.2;
+    let (state, out) = settled(&params, &inputs);
+    let k = 5.7 * 0.0891 / (16.0 * state.inflow.mean_mps / (OMEGA * params.radius_m));
+    let leans = out.load.force_n.x / (out.thrust_n * -out.tilt_aft_rad);
+    let expected = 1.0 - 1.5 * k / (1.0 + k);
+    assert!((leans / expected - 1.0).abs() < 0.1, "{leans} {expected}");
+}
+
 #[test]
 fn a_gimbal_on_its_stop_gives_way_only_by_bending() {
     let mut inputs = hovering(8.0 * DEG);
