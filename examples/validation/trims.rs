@@ -131,7 +131,9 @@ pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
         "Against the printouts ±.3 deg and ±.15 in, which only a model with the same tables could hold; \
          against the figure ±1.5 deg, ±.5 in and ±8 %, which holds the reading (±.7 deg, ±1.4 %, \
          ±43 kW) twice. Flight and GTRS are 4 to 5 deg and 100 kW apart at 40 to 60 kt: no model \
-         passes both.",
+         passes both. The rotor is not what flight has more of: in the tunnel it agrees at these advance \
+         ratios within .0002 of C_Q/sigma, 13 kW a rotor (`aircraft`, test `rotor`). Weight, flaps and \
+         height of the flight points are not at hand.",
     );
     for (speed_kt, pitch_deg, stick, thrust_lbf) in PRINTED {
         let found = at(aircraft, 90.0, speed_kt * KNOT_MPS);
@@ -156,7 +158,14 @@ pub fn nacelles(aircraft: &Aircraft, book: &mut Book) {
         "nacelles at 60, 30 and 0 deg, level",
         "Class B: GTRS; class A: flight; both digitised from Wang et al. 2025 fig. 1. At 60 and 0 deg with \
          the digitiser's known bias taken off (pitch +1.5 deg, power +45 kW).",
-        "±1.5 deg, ±.5 in, ±8 %: twice the reading. Flaps 20/12.5, as an aeroplane 0 and 458 rpm.",
+        "±1.5 deg, ±.5 in, ±8 %: twice the reading. Flaps 20/12.5, as an aeroplane 0 and 458 rpm. The power \
+         at 0 deg is not what flight takes at 458 rpm: GTRS' own growth makes 1,208 kW at 220 kt some 1,600 \
+         at 258 kt, where the masts took 1,411 kW (case 7). The figure does not say its rotor speed; 458 rpm \
+         was inferred from a blade angle that stands 0 deg from ours there, and 3.3 to 4.7 at every other \
+         nacelle angle. At 517 rpm, as first flown, it stands 3.0 to 3.5 from ours, which then takes 542, 735 \
+         and 1,037 kW, and 766 at 184 kt, 9 % less than flight; at 589 rpm 579, 791, 1,130 and 820 kW, 7 and \
+         3 % less. Thrust is not at fault (10.4 ft² of drag at 220 kt; 10 were estimated from CR-166536's \
+         tables). The efficiency is .78 to .83 at 458 rpm, .68 at 589.",
     );
     for point in POINTS.iter().filter(|point| point.nacelle_deg < 90.0) {
         rows(aircraft, &mut case, point);
