@@ -56,7 +56,7 @@ mod with_rerun {
     }
 
     /// Draws the log and what is beside it into a recording; returns its size.
-    pub fn save_against(log: &Path, other: Other, saved: &Path) -> Result<u64> {
+    fn save_against(log: &Path, other: Other, saved: &Path) -> Result<u64> {
         let drawn = draw_against(log, other, saved).map_err(|error| match (&error, other) {
             // Which of the two logs it was is not known here.
             (DrawError::Replay(_), Other::Log(other)) => {
@@ -96,7 +96,7 @@ mod with_rerun {
 }
 
 #[cfg(feature = "rerun")]
-pub use with_rerun::{run, save, save_against};
+pub use with_rerun::{run, save};
 
 /// Says what is missing.
 #[cfg(not(feature = "rerun"))]

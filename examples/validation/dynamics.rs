@@ -145,9 +145,9 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
          Hover, heave: blade elements against momentum have .14 to .20 1/s at this disc loading, whether \
          collective or power stands; .105 is less than either.\n\n\
          Cruise: the flight model's elevator has 7.4 deg/s² per degree, the reference model's tables (2.29 \
-         of lift per rad, KH has the same) 13.5. CR-166536 has a pressure factor of the tail, K_HNU = .8, \
-         which the tail here leaves out because the printouts at 40 to 100 kt do. With it the short period \
-         is 2.1 rad/s at a damping ratio of .48.",
+         of lift per rad, KH has the same) 13.5, or 10.8 with the tail's pressure factor K_HNU = .8 of \
+         CR-166536. Phase, frequency and damping agree; the gain is about 3 dB high throughout, which is \
+         that elevator, or the degrees that the sweep's report calls elevator.",
     );
     let hover = hovering(aircraft);
     let cruise = cruising(aircraft);
@@ -234,10 +234,11 @@ pub fn control(aircraft: &Aircraft, book: &mut Book) {
          The table does not agree with itself, so that nobody can with all of it. An acceleration S against a \
          damping D turns by S/D·(1 − (1 − exp(−D))/D) in a second: roll off, .471 and .77 make 10.6 deg, not \
          6.6; yaw on, .328 makes 9.4 deg with no damping at all, not 15.0; roll on, .489 and 1.82 make 8.3 \
-         deg, not 11.5. Damping in pitch and roll: 1975 has no in-plane force of a rotor that turns (Amer), \
-         which takes nearly half of what the tilt of a loaded proprotor gives; with the tilt alone ours \
-         were .8 and .7 1/s. Roll sensitivity: the published gearing, .625 deg/in, at the measured thrust \
-         slope makes .3 rad/s²/in.",
+         deg, not 11.5. Damping in pitch and roll is that of \
+         ideal rotors: without the in-plane force of a rotor that turns (Amer), which takes nearly half of \
+         what the tilt of a loaded proprotor gives, and without the losses of its inflow, ours were .9 and \
+         .8 1/s. Roll sensitivity: the published gearing, .625 deg/in, at the measured thrust \
+         slope and 565 rpm makes .27 rad/s²/in.",
     );
     let aircraft = &of_1975(aircraft);
     let axes = ["pitch", "roll", "yaw"];

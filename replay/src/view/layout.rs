@@ -271,7 +271,9 @@ impl Page {
     }
 
     fn plot(&mut self, name: &str, queries: &[String]) -> RecordingStreamResult<Id> {
-        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+        // Two columns of plots are too narrow for two legends: the same colours are in the other one.
+        let told = self.kind == Kind::Flight || queries.iter().all(|of| of.starts_with("/delta/"));
+        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop).with_visible(told);
         let axis = TimeAxis::new().with_view_range(WHOLE_FLIGHT);
         let properties: &[(&str, &dyn AsComponents)] =
             &[("PlotLegend", &legend), ("TimeAxis", &axis)];
