@@ -1,13 +1,14 @@
 //! The pilot models fly as they say, in calm and in rough air, and with an aircraft that answers
 //! differently from the one they learned on.
 
+use engine::inputs::failures;
 use engine::math::{PI, max, min};
 use engine::outputs::validity;
 use engine::start::Start;
 use engine::{Aircraft, Outputs, State};
 use recorder::pilots::corridor::{self, KNOT_MPS};
 use recorder::pilots::{PILOTS, Pilot};
-use recorder::{Flight, Hands, Moment, Progress, fly, rehearse};
+use recorder::{Flight, Hands, Moment, Progress, Reach, fly, rehearse};
 
 const DEG: f64 = PI / 180.0;
 const RPM: f64 = PI / 30.0;
@@ -308,6 +309,39 @@ fn whatever_it_begins_in_the_land_pilot_lands() {
         assert!(story.leg_n > 0.0 && story.sink_mps < SINK_MPS_DESIGN, "{from}");
         assert!(story.corridor_mps > 0.0, "{from}: {} m/s", story.corridor_mps);
         assert!(story.stands_still(), "{from}: {:?}", story.end.velocity_mps);
+    }
+}
+
+/// A failure during a flight.
+struct Fails {
+    at_s: f64,
+    failures: u64,
+}
+
+impl Hands for Fails {
+    fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
+        if reach.tick as f64 * engine::STEP_S >= self.at_s {
+            reach.world.failures = self.failures;
+        }
+    }
+}
+
+#[test]
+fn the_demonstration_ends_on_the_ground_with_engines_that_stop() {
+    let xv15 = xv15();
+    let both = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
+    let cases = [(100.0, failures::ENGINE_RIGHT), (60.0, failures::ENGINE_LEFT), (100.0, both)];
+    let some = if cfg!(debug_assertions) { &cases[..1] } else { &cases[..] };
+    for &(at_s, failures) in some {
+        let mut hands = pilot("demo", &xv15);
+        hands.push(Box::new(Fails { at_s, failures }));
+        let (state, seen) =
+            rehearse(&xv15, &calm(), hands, 600 * TICKS_PER_S, |_| {}).expect("a flight");
+        let when = format!("failures {failures} at {at_s} s");
+        assert!(state.tick < 600 * TICKS_PER_S, "{when}: it never ended");
+        assert!(seen.height_above_ground_m < 5.0, "{when}: {} m", seen.height_above_ground_m);
+        assert!(seen.velocity_mps.norm() < 0.5, "{when}: {} m/s", seen.velocity_mps.norm());
+        assert!(seen.validity & validity::HULL == 0, "{when}: a wreck");
     }
 }
 
