@@ -18,6 +18,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common)?;
+    plan.flight.self_check = true;
     #[cfg(feature = "rerun")]
     let saved = out.with_extension("rrd");
     #[cfg(feature = "rerun")]
@@ -45,7 +46,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if landing.log.is_err() {
         return Ok(ExitCode::from(report::LOG_CUT_SHORT));
     }
-    let status = verify::verify_one(out);
+    let status = verify::verify_one(out, &replay::Options::default());
     #[cfg(feature = "rerun")]
     {
         let bytes = crate::view::save(out, &saved)?;

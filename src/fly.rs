@@ -40,6 +40,9 @@ pub struct Args {
     /// End the flight after this long, s
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
+    /// Refly each second on a spare thread while flying, and warn when a bit is not the same
+    #[arg(long)]
+    self_check: bool,
 }
 
 /// The steady flight in which a flight begins.
@@ -98,6 +101,7 @@ pub struct Common {
 /// Flies, and sums up.
 pub fn run(args: &Args) -> Result<ExitCode> {
     let mut plan = Plan::new(&args.common)?;
+    plan.flight.self_check = args.self_check;
     if let Some(seconds) = args.duration {
         let ticks = (seconds / STEP_S).round();
         if !(ticks.is_finite() && ticks >= 1.0) {
@@ -187,6 +191,7 @@ impl Plan {
                 real_time: !common.fast,
                 ticks_max: None,
                 link,
+                self_check: false,
             },
         })
     }
@@ -257,6 +262,7 @@ impl Plan {
             let flight = self.flight;
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told_of_log = false;
+            let mut told_of_mismatch = false;
             while !flying.is_finished() {
                 thread::sleep(Duration::from_millis(100));
                 let now = progress.now();
@@ -274,6 +280,15 @@ impl Plan {
                     phase.unwrap_or(&"")
                 ));
                 bar.tick();
+                if now.mismatches > 0 && !told_of_mismatch {
+                    told_of_mismatch = true;
+                    bar.suspend(|| {
+                        complain!(
+                            "WARNING: the flight is not the same when reflown: do not trust this \
+                             machine, or report this; the log says where"
+                        );
+                    });
+                }
                 if now.log_failed && !told_of_log {
                     told_of_log = true;
                     bar.suspend(|| {

@@ -27,6 +27,17 @@ pub enum Command {
         #[arg(long)]
         topic: Option<String>,
     },
+    /// A proper log from a broken one: every tick up to the first bad one
+    Recover {
+        /// The broken log
+        broken: PathBuf,
+        /// The log to be written
+        #[arg(long, value_name = "FILE")]
+        out: PathBuf,
+        /// Overwrite an existing log
+        #[arg(long)]
+        force: bool,
+    },
 }
 
 /// Carries it out.
@@ -34,6 +45,7 @@ pub fn run(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Info { log } => info(log),
         Command::Cat { log, topic } => cat(log, topic.as_deref()),
+        Command::Recover { broken, out, force } => recover(broken, out, *force),
     }
 }
 
@@ -81,10 +93,37 @@ fn info(log: &Path) -> Result<ExitCode> {
         (Some(error), _) => format!("unusable from here: {error}"),
         (None, Some(Ending::Closed)) => "closed".into(),
         (None, Some(Ending::Damaged(why))) => format!("damaged from here: {why}"),
+        (None, Some(Ending::Truncated)) if reader.recovered_from().is_some() => {
+            "recovered: the flight went on, this log does not".into()
+        }
         (None, _) => "not closed: killed, or cut".into(),
     };
     say!("  {:<16} {ending}", "end of the log");
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
+}
+
+fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {
+    let done = logs::recover(broken, out, force).with_context(|| broken.display().to_string())?;
+    say!(
+        "{}: kept {} ticks ({:.3} s) of {}, each proven by its checksum and digest",
+        out.display(),
+        done.tick,
+        done.tick as f64 * STEP_S,
+        broken.display()
+    );
+    say!("lost       all after tick {}: {}", done.tick, done.reason);
+    if done.ticks_distrusted > 0 {
+        say!("           {} ticks after it can be read, but not trusted", done.ticks_distrusted);
+    }
+    if done.messages_foreign > 0 {
+        say!("           {} messages on channels of others", done.messages_foreign);
+    }
+    say!(
+        "size       {:.1} kB of {:.1} kB",
+        done.bytes_written as f64 * 1e-3,
+        done.bytes_read as f64 * 1e-3
+    );
+    Ok(ExitCode::SUCCESS)
 }
 
 fn cat(log: &Path, only: Option<&str>) -> Result<ExitCode> {

@@ -293,8 +293,7 @@ impl Blocks {
                 balance,
                 ned_from_body,
                 angular_rate_radps: plant.angular_rate_radps,
-                rotor_momentum_n_m_s: Vec3::zero(),
-                rotor_momentum_rate_n_m: spin_up,
+                spin_up_n_m: spin_up,
             }),
             horizontal_stabilizer: stabilizer_rate,
             engines: engine_rate,
@@ -470,6 +469,7 @@ fn half_wings(
             mast_tilt_rad,
             thrust_axis,
             induced_mps,
+            rotor_radius_m: aircraft.rotors.radius_m,
             pivot_m: aircraft.rotors.pivot_m,
             hub_from_cg_m: aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad),
             flap_rad: surfaces.flap_rad,
@@ -487,8 +487,18 @@ fn fins(
     mach: f64,
 ) -> Pair<Load> {
     let right_rad = surfaces.rudder_right_rad;
+    let (mast_tilt_rad, flap_rad) = (surfaces.mast_tilt_rad.mean(), surfaces.flap_rad);
+    let pressure_ratio =
+        aircraft.horizontal_stabilizer.pressure_ratio_at(mast_tilt_rad, &motions.right);
     motions.zip(Pair { left: -right_rad, right: right_rad }).map(|(motion, rudder_rad)| {
-        let inputs = vertical_stabilizers::Inputs { motion, mach, rudder_rad };
+        let inputs = vertical_stabilizers::Inputs {
+            motion,
+            mach,
+            mast_tilt_rad,
+            flap_rad,
+            pressure_ratio,
+            rudder_rad,
+        };
         vertical_stabilizers::fin(&aircraft.vertical_stabilizers, &inputs)
     })
 }

@@ -29,6 +29,10 @@ impl Stand {
 /// The right rotor of an aircraft that is held in still air at sea level, far from the ground.
 fn on_stand(aircraft: &Aircraft, tip_mps: f64, collective_deg: f64) -> Stand {
     let world = World { ground_height_m: GROUND_FAR_BELOW_M, ..World::default() };
+    let mut aircraft = aircraft.clone();
+    // On the stand there is no wing, and no other rotor.
+    aircraft.rotors.inflow.recirculation = 0.0;
+    let aircraft = &aircraft;
     let mut state = State::default();
     state.plant.rotor_speed_radps = tip_mps / aircraft.rotors.radius_m;
     state.actuators.collective_rad = Pair::both(collective_deg / DEG);
@@ -42,8 +46,11 @@ fn on_stand(aircraft: &Aircraft, tip_mps: f64, collective_deg: f64) -> Stand {
 
 /// The stand with this thrust.
 fn on_stand_at(aircraft: &Aircraft, tip_mps: f64, c_t: f64) -> Option<Stand> {
-    let (mut low, mut high) = (-5.0, 25.0);
-    for _ in 0..22 {
+    // The least collective: beyond the stall a larger one gives less again.
+    let reached =
+        (-5..=25).map(f64::from).find(|&deg| on_stand(aircraft, tip_mps, deg).c_t >= c_t)?;
+    let (mut low, mut high) = (reached - 1.0, reached);
+    for _ in 0..18 {
         let middle = 0.5 * (low + high);
         if on_stand(aircraft, tip_mps, middle).c_t < c_t {
             low = middle;

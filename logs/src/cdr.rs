@@ -9,6 +9,9 @@ use serde::de::DeserializeOwned;
 
 use crate::LogError;
 
+/// What MCAP calls it.
+pub(crate) const ENCODING: &str = "cdr";
+
 /// CDR version 1, little-endian.
 pub const HEADER: [u8; 4] = [0, 1, 0, 0];
 
@@ -53,6 +56,12 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, LogError> {
     } else {
         Err(LogError::Decode(format!("expected {used} bytes, got {}", body.len())))
     }
+}
+
+/// The number at that place of a recorded struct's message.
+pub(crate) fn word(message: &[u8], place: usize) -> Option<u64> {
+    let start = HEADER.len() + size_of::<u64>() * place;
+    message.get(start..)?.first_chunk::<8>().map(|word| u64::from_le_bytes(*word))
 }
 
 /// A view message: any serde struct, with strings and lists.

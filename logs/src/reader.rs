@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufReader, Read};
-use std::path::Path;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
 
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
@@ -13,17 +13,27 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::compact::Open;
+use crate::compact::expander::Expander;
 use crate::fields::{Field, fields};
+use crate::index::Index;
+use crate::raw::{Raw, parse_record};
 use crate::records::{
     Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
     TIMING, TimingRecord, first_digest,
 };
-use crate::setup::{CLOSING, CLOSING_DIGEST, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup};
+use crate::recover::Recovery;
+use crate::seal::{RollCall, Stamp, is_whole};
+use crate::setup::{
+    CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup,
+};
 use crate::view::{self, Remark};
-use crate::{LogError, cdr};
+use crate::{LogError, cdr, schema};
 
+/// Bytes asked for at a time.
+const BUFFER_BYTES: usize = 256 * 1024;
 /// No record of a flight is larger than this; a length beyond it is damage, not data.
-const RECORD_BYTES_MAX: usize = 16 << 20;
+pub(crate) const RECORD_BYTES_MAX: usize = 4 << 20;
 
 /// One tick as recorded.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,22 +68,32 @@ pub struct FlightReader {
     pub setup: Setup,
     /// Who flew it.
     pub identity: Identity,
+    /// The aircraft's shape for viewers, URDF.
+    pub robot_description: String,
     /// State at the start.
     pub initial: State,
+    /// Nothing is read after the state of this tick.
+    pub until_tick: Option<u64>,
     /// Whether the files and the state at the start are those of the first digest.
     pub intact: bool,
     chain: Chain,
     pending: Pending,
     /// Tick and digest of the last state read.
     last: (u64, u64),
-    /// Tick and digest of the last state written, as the writer closed the log.
-    closing: Option<(u64, u64)>,
+    /// Whether every digest so far follows from the one before.
+    unbroken: bool,
+    /// The writer's last word.
+    closing: Option<LastWord>,
     /// Events in the order they were recorded.
     pub happenings: Vec<EventRecord>,
     /// The same in words.
     pub remarks: Vec<Remark>,
     /// How the ticks kept time; cleared by whoever takes them.
     pub timings: Vec<TimingRecord>,
+    /// What could be observed, if it is to be kept; cleared by whoever takes it.
+    pub outputs: Vec<Outputs>,
+    /// Whether `outputs` is to be kept: no flight depends on it.
+    pub keep_outputs: bool,
     ending: Option<Ending>,
 }
 
@@ -88,13 +108,31 @@ impl FlightReader {
     /// Opens a log and reads up to the state at the start.
     ///
     /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours; [`LogError::Compacted`]
+    /// for a compacted log, which [`FlightReader::open_any`] reads as well.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        if file.metadata().map_err(LogError::Open)?.is_dir() {
-            return Err(LogError::NotAFlight("a folder".into()));
-        }
-        let mut records = Records::new(file);
+        Self::of(Records::open(path, None)?)
+    }
+
+    /// Opens a log, compacted or not, and reads up to the state at the start. `open` makes the
+    /// aircraft that flies what a compacted log leaves out.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Self::of(Records::open(path, Some(open))?)
+    }
+
+    /// Reads a log from anywhere, up to the state at the start.
+    ///
+    /// # Errors
+    /// When it is not MCAP, or not a flight of ours.
+    pub fn read(source: impl Read + Send + 'static) -> Result<Self, LogError> {
+        Self::of(Records::new(source))
+    }
+
+    fn of(mut records: Records) -> Result<Self, LogError> {
+        let mut robot_description = String::new();
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
@@ -103,6 +141,9 @@ impl FlightReader {
         loop {
             match records.next() {
                 Some(Item::Metadata(name, facts)) if name == METADATA => {
+                    if !is_whole(&facts) {
+                        records.oddity("the metadata that says who flew is not as written");
+                    }
                     identity = Some(Identity(facts));
                 }
                 Some(Item::Metadata(name, facts)) if name == CLOSING => {
@@ -119,7 +160,12 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
-                Some(Item::Message(topic, _, data)) if topic == STATE => {
+                Some(Item::Message(Message { topic, data, .. }))
+                    if topic == view::ROBOT_DESCRIPTION =>
+                {
+                    robot_description = view::text(&data)?;
+                }
+                Some(Item::Message(Message { topic, data, .. })) if topic == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
                         return Err(no_flight(&format!("{missing} is not in it")));
@@ -131,8 +177,11 @@ impl FlightReader {
                         records,
                         setup,
                         identity,
+                        robot_description,
                         initial: first.state,
+                        until_tick: None,
                         intact: digest == first.digest,
+                        unbroken: digest == first.digest,
                         chain: Chain::from(first.digest),
                         pending: Pending::default(),
                         last: (first.state.tick, first.digest),
@@ -140,11 +189,16 @@ impl FlightReader {
                         happenings: Vec::new(),
                         remarks: Vec::new(),
                         timings: Vec::new(),
+                        keep_outputs: false,
+                        outputs: Vec::new(),
                         ending: None,
                     });
                 }
                 Some(_) => {}
                 None => {
+                    if let Some(error) = records.refused.take() {
+                        return Err(error);
+                    }
                     return Err(match records.ending() {
                         Ending::Damaged(why) => LogError::NotAFlight(why),
                         _ if identity.is_some() => no_flight("it ends before the first state"),
@@ -160,30 +214,25 @@ impl FlightReader {
     /// # Errors
     /// When the messages do not make a flight: out of order, missing, or of another layout.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
+        if self.until_tick.is_some_and(|until| self.last.0 >= until) {
+            // As far as it was wanted, it is whole.
+            self.ending = Some(Ending::Closed);
+            return Ok(None);
+        }
         loop {
             let Some(item) = self.records.next() else {
-                let ending = self.records.ending();
-                let begun = self.pending.inputs.is_some() || !self.pending.events.is_empty();
-                if ending == Ending::Closed && begun {
-                    return Err(LogError::Order("the last tick has no state".into()));
-                }
-                // An end without the writer's last word was put there by someone else.
-                let whole = self.closing == Some(self.last);
-                self.ending = Some(if ending == Ending::Closed && !whole {
-                    Ending::Truncated
-                } else {
-                    ending
-                });
+                self.ending = Some(self.end()?);
                 return Ok(None);
             };
-            let (topic, data) = match item {
-                Item::Message(topic, _, data) => (topic, data),
+            let message = match item {
+                Item::Message(message) => message,
                 Item::Metadata(name, facts) if name == CLOSING => {
                     self.closing = last_word(&facts);
                     continue;
                 }
                 Item::Metadata(..) | Item::Attachment(..) => continue,
             };
+            let (topic, data) = (message.topic, message.data);
             match topic.as_str() {
                 HARDWARE => {
                     self.chain.add(&data);
@@ -203,9 +252,44 @@ impl FlightReader {
                 TIMING => self.timings.push(cdr::decode(&data)?),
                 EVENTS => self.happenings.push(cdr::decode(&data)?),
                 view::LOG => self.remarks.push(view::remark(&data)?),
+                OUTPUTS if self.keep_outputs => self.outputs.push(cdr::decode(&data)?),
                 _ => {}
             }
         }
+    }
+
+    /// How the file ends, now that nothing more can be read.
+    fn end(&self) -> Result<Ending, LogError> {
+        let ending = self.records.ending();
+        let begun = self.pending.inputs.is_some() || !self.pending.events.is_empty();
+        if ending == Ending::Closed && begun {
+            return Err(LogError::Order("the last tick has no state".into()));
+        }
+        if matches!(ending, Ending::Damaged(_)) {
+            return Ok(ending);
+        }
+        if let Some(oddity) = &self.records.oddity {
+            return Ok(Ending::Damaged(oddity.clone()));
+        }
+        // An end without the writer's last word was put there by someone else.
+        let Some(closing) = self.closing.filter(|_| ending == Ending::Closed) else {
+            return Ok(Ending::Truncated);
+        };
+        if closing.last != self.last {
+            return Ok(Ending::Truncated);
+        }
+        // When the chain says that the flight is what was flown, it is something beside it.
+        let all_read = self.unbroken && !self.records.sought;
+        if all_read && closing.messages != self.records.roll_call.digest() {
+            return Ok(Ending::Damaged(
+                "a message beside the flight itself (timing, events, viewers' channels, or the order \
+                 or time of any) is not as written, though every checksum is right: a tool that \
+                 repairs logs may have done this"
+                    .into(),
+            ));
+        }
+        // A recovered log is a proper file, and still not the whole flight.
+        Ok(if self.recovered_from().is_some() { Ending::Truncated } else { Ending::Closed })
     }
 
     fn close_tick(&mut self, data: &[u8]) -> Result<Tick, LogError> {
@@ -228,10 +312,100 @@ impl FlightReader {
         let mut state_message = cdr::HEADER.to_vec();
         state_message.extend_from_slice(&data[cdr::HEADER.len() + size_of::<u64>()..]);
         let chained = self.chain.close(&state_message) == record.digest;
+        self.unbroken &= chained;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
         self.last = (tick, record.digest);
         Ok(Tick { events, inputs, record, state_message, chained })
+    }
+
+    /// Begins at the recorded state of a tick, found by the log's index where it has one.
+    ///
+    /// # Errors
+    /// [`LogError::Outside`], or what is wrong with the log up to there.
+    pub fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        let first = self.initial.tick;
+        if tick == self.last.0 {
+            return Ok(());
+        }
+        if tick < self.last.0 {
+            return Err(LogError::Outside { tick, first, last: self.last_tick() });
+        }
+        self.records.seek(tick)?;
+        self.pending = Pending::default();
+        loop {
+            match self.records.next() {
+                Some(Item::Message(Message { topic, data, .. })) if topic == STATE => {
+                    // Of all the states that are passed by, only the tick is looked at.
+                    let found = cdr::word(&data, 1).unwrap_or(0);
+                    if found > tick {
+                        return Err(LogError::Order(format!("tick {tick} is not there")));
+                    }
+                    self.last.0 = found;
+                    if found == tick {
+                        let record: StateRecord = cdr::decode(&data)?;
+                        self.initial = record.state;
+                        self.chain = Chain::from(record.digest);
+                        self.last = (tick, record.digest);
+                        return Ok(());
+                    }
+                }
+                Some(Item::Metadata(name, facts)) if name == CLOSING => {
+                    self.closing = last_word(&facts);
+                }
+                Some(_) => {}
+                None => {
+                    return Err(match self.records.ending() {
+                        Ending::Damaged(why) => LogError::Order(format!("damaged: {why}")),
+                        _ => LogError::Outside { tick, first, last: self.last_tick() },
+                    });
+                }
+            }
+        }
+    }
+
+    /// The last tick as the writer closed the log, or as far as it was read.
+    fn last_tick(&self) -> u64 {
+        self.closing.map_or(self.last.0, |closing| closing.last.0.max(self.last.0))
+    }
+
+    /// Digest of the state that was read last; at first, of the state at the start.
+    pub fn digest(&self) -> u64 {
+        self.last.1
+    }
+
+    /// Whether the last state is as it was recorded. In a compacted log, states between keyframes are
+    /// flown again.
+    pub fn is_recorded(&self) -> bool {
+        self.records.expander.as_ref().is_none_or(|expander| expander.recorded)
+    }
+
+    /// In a compacted log, the last tick as it was flown again while reading.
+    pub fn flown(&self) -> Option<(&State, &Outputs)> {
+        self.records.expander.as_ref()?.flown()
+    }
+
+    /// Whether the log is compacted.
+    pub fn is_compacted(&self) -> bool {
+        self.records.expander.is_some()
+    }
+
+    /// What no checksum found and is not as written, so far.
+    pub fn oddity(&self) -> Option<&str> {
+        self.records.oddity.as_deref()
+    }
+
+    /// The file that this log was recovered from, if it was.
+    pub fn recovered_from(&self) -> Option<&str> {
+        self.identity.0.get(Recovery::PARENT).map(String::as_str)
+    }
+
+    /// Lets go of what was read beside the ticks: for whoever reads on and on and does not ask for it.
+    pub fn forget(&mut self) {
+        self.timings.clear();
+        self.happenings.clear();
+        self.outputs.clear();
+        self.remarks.clear();
     }
 
     /// How the file ends, once the last tick has been read.
@@ -240,9 +414,14 @@ impl FlightReader {
     }
 }
 
+/// So many ticks after a state, viewers' messages of its tick are written, too.
+const PAST_TICKS: u64 = 2500;
+
 /// Every message of a log as it stands there, whatever its channel.
 pub struct Messages {
     records: Records,
+    from_tick: u64,
+    until_tick: u64,
 }
 
 /// One message.
@@ -254,6 +433,8 @@ pub struct Message {
     pub time_ns: u64,
     /// Its bytes.
     pub data: Vec<u8>,
+    /// What it carries beside them.
+    pub(crate) stamp: Stamp,
 }
 
 impl Messages {
@@ -262,8 +443,27 @@ impl Messages {
     /// # Errors
     /// When the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(LogError::Open)?;
-        Ok(Self { records: Records::new(file) })
+        Ok(Self { records: Records::open(path, None)?, from_tick: 0, until_tick: u64::MAX })
+    }
+
+    /// Opens a log, compacted or not.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
+        Ok(Self { records: Records::open(path, Some(open))?, from_tick: 0, until_tick: u64::MAX })
+    }
+
+    /// Only the messages from one tick to another; those before are not read where the log's index
+    /// says where they are.
+    ///
+    /// # Errors
+    /// When the log cannot be read.
+    pub fn limit(&mut self, from_tick: u64, until_tick: u64) -> Result<(), LogError> {
+        (self.from_tick, self.until_tick) = (from_tick, until_tick);
+        // The channels are defined before the first message.
+        while self.records.topics.is_empty() && self.records.next().is_some() {}
+        if from_tick > 0 { self.records.seek(from_tick) } else { Ok(()) }
     }
 
     /// How the file ends, once the last message has been read.
@@ -277,8 +477,15 @@ impl Iterator for Messages {
 
     fn next(&mut self) -> Option<Message> {
         loop {
-            if let Item::Message(topic, time_ns, data) = self.records.next()? {
-                return Some(Message { topic, time_ns, data });
+            if let Item::Message(message) = self.records.next()? {
+                let tick = message.time_ns / engine::STEP_NS;
+                // What viewers draw is written after the states, but not ten seconds after.
+                if tick > self.until_tick.saturating_add(PAST_TICKS) {
+                    return None;
+                }
+                if (self.from_tick..=self.until_tick).contains(&tick) {
+                    return Some(message);
+                }
             }
         }
     }
@@ -310,13 +517,23 @@ fn no_flight(why: &str) -> LogError {
     LogError::NotAFlight(format!("an MCAP file, but not a tiltrotor flight: {why}"))
 }
 
-/// Tick and digest with which the writer closed the log.
-fn last_word(facts: &BTreeMap<String, String>) -> Option<(u64, u64)> {
-    let number = |key| facts.get(key).and_then(|text| text.parse().ok());
-    number(CLOSING_TICK).zip(number(CLOSING_DIGEST))
+/// With what the writer closed the log.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LastWord {
+    /// Tick and digest of the last state.
+    pub last: (u64, u64),
+    /// Roll call of all messages.
+    messages: u64,
 }
 
-fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
+pub(crate) fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
+    let number = |key| facts.get(key).and_then(|text| text.parse().ok());
+    let last = number(CLOSING_TICK).zip(number(CLOSING_DIGEST))?;
+    let word = LastWord { last, messages: number(CLOSING_MESSAGES)? };
+    is_whole(facts).then_some(word)
+}
+
+pub(crate) fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
     let known = [
         (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
         (Identity::MODEL, "flight model", engine::MODEL_VERSION),
@@ -335,32 +552,93 @@ fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
 enum Item {
     Metadata(String, BTreeMap<String, String>),
     Attachment(String, Vec<u8>),
-    Message(String, u64, Vec<u8>),
+    Message(Message),
+}
+
+/// The parts of a file, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Start,
+    Data,
+    Index,
+    Footer,
 }
 
 /// Records of the file, up to its end or the first damage.
 struct Records {
-    file: BufReader<File>,
+    /// Where it is, if it is a file.
+    path: Option<PathBuf>,
+    source: BufReader<Box<dyn Read + Send>>,
     reader: LinearReader,
+    /// The last bytes that were read.
+    tail: Vec<u8>,
+    part: Part,
+    schemas: BTreeMap<u16, (String, bool)>,
     topics: BTreeMap<u16, String>,
+    roll_call: RollCall,
+    /// The first thing that no checksum found and that is not as written.
+    oddity: Option<String>,
     ending: Ending,
-    started: bool,
+    /// Makes the records of a compacted log.
+    expander: Option<Box<Expander>>,
+    /// Reading went on somewhere else in the file.
+    sought: bool,
+    /// What is no damage: a log that is not for this program.
+    refused: Option<LogError>,
 }
 
 impl Records {
-    fn new(file: File) -> Self {
-        let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_validate_data_section_crc(true)
-            .with_validate_summary_section_crc(true)
-            .with_check_finishes_after_end_magic(true)
-            .with_record_length_limit(RECORD_BYTES_MAX);
+    /// Opens a log; one that is compacted only if its states can be flown again.
+    fn open(path: &Path, open: Option<Open>) -> Result<Self, LogError> {
+        let file = File::open(path).map_err(LogError::Open)?;
+        if file.metadata().map_err(LogError::Open)?.is_dir() {
+            return Err(LogError::NotAFlight("a folder".into()));
+        }
+        let mut records = Self { path: Some(path.into()), ..Self::new(file) };
+        let nobody: Open = |_| Err(LogError::Compacted);
+        if let Some(expander) = Expander::open(path, open.unwrap_or(nobody), false)? {
+            if open.is_none() {
+                return Err(LogError::Compacted);
+            }
+            records.expander = Some(Box::new(expander));
+        }
+        Ok(records)
+    }
+
+    /// Goes where the state of a tick is not far ahead, if the log's index says where.
+    fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        self.sought = true;
+        if let Some(expander) = &mut self.expander {
+            return expander.seek(tick);
+        }
+        let Some(path) = &self.path else { return Ok(()) };
+        let Some(index) = Index::read(path) else { return Ok(()) };
+        let Some(place) = index.chunk_of(tick).filter(|&place| place > 0) else { return Ok(()) };
+        let mut file = File::open(path).map_err(LogError::Open)?;
+        file.seek(SeekFrom::Start(index.chunks[place].offset))?;
+        self.source = BufReader::with_capacity(BUFFER_BYTES, Box::new(file));
+        // Chunks keep their own checksums; that of the whole file cannot be looked at any more.
+        let options = options().with_skip_start_magic(true).with_validate_data_section_crc(false);
+        self.reader = LinearReader::new_with_options(options);
+        self.part = Part::Data;
+        Ok(())
+    }
+
+    fn new(source: impl Read + Send + 'static) -> Self {
         Self {
-            file: BufReader::with_capacity(256 * 1024, file),
-            reader: LinearReader::new_with_options(options),
+            path: None,
+            source: BufReader::with_capacity(BUFFER_BYTES, Box::new(source)),
+            reader: LinearReader::new_with_options(options()),
+            tail: Vec::with_capacity(2 * mcap::MAGIC.len()),
+            part: Part::Start,
+            schemas: BTreeMap::new(),
             topics: BTreeMap::new(),
+            roll_call: RollCall::default(),
+            oddity: None,
             ending: Ending::Closed,
-            started: false,
+            expander: None,
+            sought: false,
+            refused: None,
         }
     }
 
@@ -368,23 +646,73 @@ impl Records {
         self.ending.clone()
     }
 
+    fn oddity(&mut self, what: &str) {
+        self.oddity.get_or_insert_with(|| what.to_string());
+    }
+
     fn next(&mut self) -> Option<Item> {
         if self.ending != Ending::Closed {
             return None;
         }
+        if self.expander.is_some() {
+            return self.expanded();
+        }
         match self.read() {
             Ok(item) => item,
-            Err(McapError::UnexpectedEof) if self.started => {
-                self.ending = Ending::Truncated;
-                None
-            }
-            Err(McapError::BadMagic | McapError::UnexpectedEof) if !self.started => {
+            Err(McapError::BadMagic | McapError::UnexpectedEof) if self.part == Part::Start => {
                 self.ending = Ending::Damaged("not an MCAP file".into());
                 None
             }
-            Err(error) => {
-                self.ending = Ending::Damaged(error.to_string());
+            Err(McapError::UnexpectedEof) if self.tail != mcap::MAGIC => {
+                self.ending = Ending::Truncated;
                 None
+            }
+            Err(error) => {
+                self.ending = Ending::Damaged(in_words(&error));
+                None
+            }
+        }
+    }
+
+    /// The next record of a compacted log.
+    fn expanded(&mut self) -> Option<Item> {
+        let expander = self.expander.as_mut()?;
+        loop {
+            match expander.next() {
+                Ok(Some(Raw::Channel(channel))) => {
+                    self.topics.insert(channel.id, channel.topic);
+                }
+                Ok(Some(Raw::Message(header, data))) => {
+                    if let Some(topic) = self.topics.get(&header.channel_id) {
+                        let stamp = Stamp {
+                            sequence: header.sequence,
+                            log_time_ns: header.log_time,
+                            publish_time_ns: header.publish_time,
+                        };
+                        self.roll_call.add(topic, stamp, &data);
+                        let (topic, time_ns) = (topic.clone(), header.log_time);
+                        return Some(Item::Message(Message { topic, time_ns, data, stamp }));
+                    }
+                }
+                Ok(Some(Raw::Metadata(record))) => {
+                    return Some(Item::Metadata(record.name, record.metadata));
+                }
+                Ok(Some(Raw::Attachment(header, data))) => {
+                    return Some(Item::Attachment(header.name, data));
+                }
+                Ok(Some(_)) => {}
+                Ok(None) => return None,
+                Err(LogError::Mcap(McapError::UnexpectedEof)) => {
+                    self.ending = Ending::Truncated;
+                    return None;
+                }
+                Err(error) => {
+                    self.ending = Ending::Damaged(error.to_string());
+                    if matches!(error, LogError::Version { .. } | LogError::Setup(_)) {
+                        self.refused = Some(error);
+                    }
+                    return None;
+                }
             }
         }
     }
@@ -394,20 +722,46 @@ impl Records {
             match event? {
                 LinearReadEvent::ReadRequest(wanted) => {
                     let room = self.reader.insert(wanted);
-                    let read = self.file.read(room)?;
+                    let read = self.source.read(room)?;
+                    remember(&mut self.tail, &room[..read]);
                     self.reader.notify_read(read);
                 }
                 LinearReadEvent::Record { data, opcode } => {
-                    self.started = true;
-                    match mcap::parse_record(opcode, data)? {
-                        Record::Channel(channel) => {
-                            self.topics.insert(channel.id, channel.topic);
+                    let record = parse_record(opcode, data)?;
+                    let part = part_of(&record, self.part);
+                    if let Some(what) = misplaced(&record, part, self.part) {
+                        self.ending = Ending::Damaged(what);
+                        return Ok(None);
+                    }
+                    self.part = part;
+                    match record {
+                        Record::Schema { header, data } => {
+                            let kinds = schema::kinds().unwrap_or_default();
+                            let known = kinds.iter().find(|kind| kind.name == header.name);
+                            let ours = header.encoding == schema::ENCODING
+                                && known.is_none_or(|kind| kind.text.as_bytes() == &*data);
+                            self.schemas.insert(header.id, (header.name, ours));
                         }
+                        Record::Channel(channel) => self.meet(channel),
                         Record::Message { header, data } => {
-                            if let Some(topic) = self.topics.get(&header.channel_id) {
-                                let (topic, data) = (topic.clone(), data.into_owned());
-                                return Ok(Some(Item::Message(topic, header.log_time, data)));
-                            }
+                            let Some(topic) = self.topics.get(&header.channel_id) else {
+                                self.ending = Ending::Damaged(
+                                    "a message on a channel that is not there".into(),
+                                );
+                                return Ok(None);
+                            };
+                            let stamp = Stamp {
+                                sequence: header.sequence,
+                                log_time_ns: header.log_time,
+                                publish_time_ns: header.publish_time,
+                            };
+                            self.roll_call.add(topic, stamp, &data);
+                            return Ok(Some(Item::Message(Message {
+                                topic: topic.clone(),
+                                time_ns: header.log_time,
+                                data: data.into_owned(),
+                                stamp,
+                            })));
                         }
                         Record::Metadata(metadata) => {
                             return Ok(Some(Item::Metadata(metadata.name, metadata.metadata)));
@@ -422,4 +776,77 @@ impl Records {
         }
         Ok(None)
     }
+
+    /// Takes a channel's name, and looks whether it holds what a channel of that name holds.
+    fn meet(&mut self, channel: mcap::records::Channel) {
+        let kinds = schema::kinds().unwrap_or_default();
+        if let Some(kind) = kinds.iter().find(|kind| kind.topic == channel.topic) {
+            let schema = self.schemas.get(&channel.schema_id);
+            let fits = schema.is_some_and(|(name, ours)| *ours && *name == kind.name);
+            if !fits || channel.message_encoding != cdr::ENCODING {
+                self.oddity(&format!("the definition of {} is not as written", kind.topic));
+            }
+        }
+        self.topics.insert(channel.id, channel.topic);
+    }
+}
+
+/// Keeps the last bytes, as many as the magic number has.
+fn remember(tail: &mut Vec<u8>, read: &[u8]) {
+    let kept = mcap::MAGIC.len();
+    tail.extend_from_slice(&read[read.len().saturating_sub(kept)..]);
+    tail.drain(..tail.len().saturating_sub(kept));
+}
+
+/// The part of the file that a record is in, or begins.
+fn part_of(record: &Record<'_>, now: Part) -> Part {
+    match record {
+        Record::Header(_) => Part::Data,
+        Record::DataEnd(_) => Part::Index,
+        Record::Footer(_) => Part::Footer,
+        _ => now,
+    }
+}
+
+/// What is wrong with a record's place, if anything.
+fn misplaced(record: &Record<'_>, part: Part, before: Part) -> Option<String> {
+    let repeated = match record {
+        Record::Header(_) => before != Part::Start,
+        Record::DataEnd(_) => before != Part::Data,
+        Record::Footer(_) => before != Part::Index,
+        Record::Unknown { opcode, .. } => {
+            return Some(format!("a record of a kind that no log has (0x{opcode:02x})"));
+        }
+        Record::Message { .. } | Record::Attachment { .. } | Record::Metadata(_) => {
+            part != Part::Data
+        }
+        _ => part == Part::Start || part == Part::Footer,
+    };
+    repeated.then(|| "a record where it does not belong".to_string())
+}
+
+/// What MCAP's own checks found, and where that is.
+fn in_words(error: &McapError) -> String {
+    let what = match error {
+        McapError::BadAttachmentCrc { .. } => "one of the files the flight was flown with",
+        McapError::BadChunkCrc { .. } | McapError::DecompressionError(_) => "a chunk of messages",
+        McapError::BadDataCrc { .. } => {
+            "something beside messages and files: header, metadata, a chunk's frame or its index"
+        }
+        McapError::BadSummaryCrc { .. } => "the index at the end",
+        McapError::UnexpectedEof => "a length: it points beyond the end",
+        McapError::BadMagic => "the last bytes",
+        McapError::BytesAfterEndMagic => return "bytes after the end".into(),
+        error => return error.to_string(),
+    };
+    format!("{what} is not as written ({error})")
+}
+
+fn options() -> LinearReaderOptions {
+    LinearReaderOptions::default()
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_data_section_crc(true)
+        .with_validate_summary_section_crc(true)
+        .with_check_finishes_after_end_magic(true)
+        .with_record_length_limit(RECORD_BYTES_MAX)
 }

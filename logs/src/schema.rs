@@ -1,14 +1,68 @@
 //! `ros2msg` schemas, generated from the recorded structs themselves.
 
 use std::fmt::Write;
+use std::sync::OnceLock;
 
+use engine::Outputs;
+use engine::inputs::DeviceEvent;
 use serde::Serialize;
 
-use crate::LogError;
 use crate::fields::{Node, tree};
+use crate::records::{
+    EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
+    TimingRecord,
+};
+use crate::{LogError, view};
 
 /// Package of our message types.
 pub const PACKAGE: &str = "tiltrotor";
+
+/// What MCAP calls the language of the definitions.
+pub(crate) const ENCODING: &str = "ros2msg";
+
+/// What a channel holds.
+pub(crate) struct Kind {
+    /// The channel.
+    pub topic: &'static str,
+    /// The message type's name, with its package.
+    pub name: String,
+    /// Its definition.
+    pub text: String,
+}
+
+/// Every channel of a flight log, made once.
+///
+/// # Errors
+/// When a struct is not recordable.
+pub(crate) fn kinds() -> Result<&'static [Kind], LogError> {
+    static KINDS: OnceLock<Vec<Kind>> = OnceLock::new();
+    if let Some(kinds) = KINDS.get() {
+        return Ok(kinds);
+    }
+    fn recorded<T: Serialize + Default>(topic: &'static str, name: &str) -> Result<Kind, LogError> {
+        Ok(Kind { topic, name: format!("{PACKAGE}/msg/{name}"), text: ros2msg::<T>()? })
+    }
+    let viewed = |topic, schema: view::Schema| Kind {
+        topic,
+        name: schema.name.to_string(),
+        text: schema.text,
+    };
+    let kinds = vec![
+        recorded::<DeviceEvent>(HARDWARE, "DeviceEvent")?,
+        recorded::<InputsRecord>(INPUTS, "InputsRecord")?,
+        recorded::<StateRecord>(STATE, "StateRecord")?,
+        recorded::<TimingRecord>(TIMING, "TimingRecord")?,
+        recorded::<EventRecord>(EVENTS, "EventRecord")?,
+        recorded::<Outputs>(OUTPUTS, "Outputs")?,
+        viewed(view::TF, view::tf_schema()),
+        viewed(view::JOY, view::joy_schema()),
+        viewed(view::FIX, view::fix_schema()),
+        viewed(view::JOINT_STATES, view::joint_schema()),
+        viewed(view::LOG, view::log_schema()),
+        viewed(view::ROBOT_DESCRIPTION, view::string_schema()),
+    ];
+    Ok(KINDS.get_or_init(|| kinds))
+}
 
 const RULE: &str =
     "================================================================================";

@@ -11,6 +11,8 @@ pub(crate) const CLOSING: &str = "tiltrotor_closing";
 pub(crate) const CLOSING_TICK: &str = "tick";
 /// Its key for the last digest.
 pub(crate) const CLOSING_DIGEST: &str = "digest";
+/// Its key for the roll call of all messages.
+pub(crate) const CLOSING_MESSAGES: &str = "messages";
 
 /// Ticks a second.
 pub(crate) const RATE_HZ: &str = "250";

@@ -3,11 +3,12 @@
 //! ROS 2 conventions: world x east, y north, z up; body x forward, y left, z up. The root frame is
 //! called `tf#/`, which is where rerun looks.
 
-use engine::Outputs;
-use engine::frames::{Attitude, Body, Ned, Vec3};
+use engine::frames::{Attitude, Body, Ned, Structural, Vec3};
 use engine::math::{FRAC_PI_2, PI, cos, sin};
+use engine::{Aircraft, Outputs};
 use serde::Serialize;
 
+use crate::records::OUTPUTS;
 use crate::{LogError, cdr};
 
 /// Frames of the aircraft and its moving parts.
@@ -229,6 +230,23 @@ pub fn remark(message: &[u8]) -> Result<Remark, LogError> {
     })
 }
 
+/// The text of a `std_msgs/msg/String`.
+///
+/// # Errors
+/// When the bytes are none.
+pub fn text(message: &[u8]) -> Result<String, LogError> {
+    #[derive(serde::Deserialize)]
+    struct Said {
+        data: String,
+    }
+    let body = message
+        .strip_prefix(&cdr::HEADER)
+        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
+    cdr_encoding::from_bytes::<Said, byteorder::LittleEndian>(body)
+        .map(|(said, _)| said.data)
+        .map_err(|_| LogError::Decode("not a text".into()))
+}
+
 fn stamp(tick: u64) -> Time {
     let ns = crate::records::time_ns(tick);
     Time {
@@ -263,6 +281,44 @@ fn attitude(a: Attitude) -> Quaternion {
 fn about(angle_rad: f64, axis: [f64; 3]) -> Quaternion {
     let s = sin(0.5 * angle_rad);
     Quaternion { w: cos(0.5 * angle_rad), x: axis[0] * s, y: axis[1] * s, z: axis[2] * s }
+}
+
+/// What the frames need to know of the aircraft.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shape {
+    pivot_m: Vec3<Structural>,
+    mast_m: f64,
+}
+
+impl Shape {
+    /// Of an aircraft.
+    pub fn of(aircraft: &Aircraft) -> Self {
+        Self { pivot_m: aircraft.rotors.pivot_m, mast_m: aircraft.rotors.mast_length_m }
+    }
+}
+
+/// The message of a channel that is made from one tick's outputs; `None` on any other channel.
+///
+/// # Errors
+/// When it has no form as a message.
+pub fn message(
+    topic: &str,
+    outputs: &Outputs,
+    attitude: Attitude,
+    shape: &Shape,
+) -> Result<Option<Vec<u8>>, LogError> {
+    match topic {
+        OUTPUTS => cdr::encode(outputs),
+        TF => {
+            let pivot = shape.pivot_m.from_cg(outputs.balance.cg_m);
+            cdr::encode_view(&tf(outputs, attitude, pivot, shape.mast_m))
+        }
+        JOY => cdr::encode_view(&joy(outputs)),
+        JOINT_STATES => cdr::encode_view(&joint_states(outputs)),
+        FIX => cdr::encode_view(&fix(outputs)),
+        _ => return Ok(None),
+    }
+    .map(Some)
 }
 
 /// Frames: the aircraft in the world, nacelles on the aircraft, rotors on the nacelles.

@@ -2,26 +2,34 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Seek};
 use std::path::Path;
 
-use engine::frames::{Attitude, Vec3};
+use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Outputs, State};
 use mcap::records::MessageHeader;
+use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
+use crate::reader::{Message, RECORD_BYTES_MAX};
 use crate::records::{
     Chain, EVENTS, EventRecord, HARDWARE, Happening, INPUTS, InputsRecord, OUTPUTS, STATE,
     StateRecord, TIMING, TimingRecord, first_digest, time_ns,
 };
-use crate::setup::{CLOSING, CLOSING_DIGEST, CLOSING_TICK, Identity, METADATA, Setup};
+use crate::schema::{self, Kind};
+use crate::seal::{RollCall, Stamp, seal};
+use crate::setup::{
+    CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, Setup,
+};
 use crate::view::{self, Level};
-use crate::{LogError, cdr, schema};
+use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
-const CHUNK_BYTES: u64 = 128 * 1024;
+pub(crate) const CHUNK_BYTES: u64 = 128 * 1024;
+/// The longest text that fits into a log, with room for its record's frame.
+const TEXT_BYTES_MAX: usize = RECORD_BYTES_MAX - 1024;
 /// Ticks between frames, stick positions and joints for viewers: 50 Hz.
 const VIEW_TICKS: u64 = 5;
 /// Ticks between outputs: 25 Hz.
@@ -42,17 +50,22 @@ struct Channels {
     fix: u16,
     joints: u16,
     log: u16,
+    description: u16,
 }
 
 /// A flight being written.
 pub struct FlightWriter {
-    mcap: Writer<BufWriter<File>>,
+    /// Never seeks: a pipe will do.
+    mcap: Writer<NoSeek<BufWriter<File>>>,
     channels: Channels,
+    topics: BTreeMap<u16, &'static str>,
     chain: Chain,
+    roll_call: RollCall,
+    /// Whether the state at the start is in it.
+    begun: bool,
     last_tick: u64,
     message: Vec<u8>,
-    pivot_m: Vec3<engine::frames::Structural>,
-    mast_m: f64,
+    shape: view::Shape,
 }
 
 /// How a log ended.
@@ -78,6 +91,34 @@ impl FlightWriter {
         initial: &State,
         force: bool,
     ) -> Result<Self, LogError> {
+        let mut writer = Self::begin(path, setup, identity, force)?;
+        writer.shape = view::Shape::of(aircraft);
+        let text = cdr::encode_view(&view::Text { data: robot_description })?;
+        writer.put(writer.channels.description, initial.tick, &text)?;
+        let digest = first_digest(&setup.files(), &cdr::encode(initial)?);
+        writer.chain = Chain::from(digest);
+        writer.last_tick = initial.tick;
+        writer.begun = true;
+        let first = StateRecord { digest, state: *initial };
+        writer.record(writer.channels.state, initial.tick, &first)?;
+        writer.flush()?;
+        Ok(writer)
+    }
+
+    /// Starts a log that holds no message yet.
+    pub(crate) fn begin(
+        path: &Path,
+        setup: &Setup,
+        identity: &Identity,
+        force: bool,
+    ) -> Result<Self, LogError> {
+        // What cannot be read back is not written.
+        if let Some((name, text)) =
+            setup.files().iter().find(|(_, text)| text.len() > TEXT_BYTES_MAX)
+        {
+            let (bytes, most) = (text.len(), TEXT_BYTES_MAX);
+            return Err(LogError::Encode(format!("{name}: {bytes} bytes, at most {most} fit")));
+        }
         let file = OpenOptions::new()
             .write(true)
             .create(true)
@@ -91,11 +132,10 @@ impl FlightWriter {
             .library(concat!("tiltrotor ", env!("CARGO_PKG_VERSION")))
             .chunk_size(Some(CHUNK_BYTES))
             .disable_seeking(true)
-            .create(BufWriter::new(file))?;
-        mcap.write_metadata(&mcap::records::Metadata {
-            name: METADATA.into(),
-            metadata: identity.0.clone(),
-        })?;
+            .create(NoSeek::new(BufWriter::new(file)))?;
+        let mut facts = identity.0.clone();
+        seal(&mut facts);
+        mcap.write_metadata(&mcap::records::Metadata { name: METADATA.into(), metadata: facts })?;
         for (name, text) in setup.files() {
             mcap.attach(&Attachment {
                 log_time: 0,
@@ -105,36 +145,42 @@ impl FlightWriter {
                 data: text.as_bytes().into(),
             })?;
         }
-        let channels = Channels {
-            hardware: recorded::<DeviceEvent>(&mut mcap, HARDWARE, "DeviceEvent")?,
-            inputs: recorded::<InputsRecord>(&mut mcap, INPUTS, "InputsRecord")?,
-            state: recorded::<StateRecord>(&mut mcap, STATE, "StateRecord")?,
-            timing: recorded::<TimingRecord>(&mut mcap, TIMING, "TimingRecord")?,
-            events: recorded::<EventRecord>(&mut mcap, EVENTS, "EventRecord")?,
-            outputs: recorded::<Outputs>(&mut mcap, OUTPUTS, "Outputs")?,
-            tf: viewed(&mut mcap, view::TF, &view::tf_schema())?,
-            joy: viewed(&mut mcap, view::JOY, &view::joy_schema())?,
-            fix: viewed(&mut mcap, view::FIX, &view::fix_schema())?,
-            joints: viewed(&mut mcap, view::JOINT_STATES, &view::joint_schema())?,
-            log: viewed(&mut mcap, view::LOG, &view::log_schema())?,
+        let mut topics = BTreeMap::new();
+        let mut add = |kind: &Kind| -> Result<u16, LogError> {
+            let schema = mcap.add_schema(&kind.name, schema::ENCODING, kind.text.as_bytes())?;
+            let id = mcap.add_channel(schema, kind.topic, cdr::ENCODING, &BTreeMap::new())?;
+            topics.insert(id, kind.topic);
+            Ok(id)
         };
-        let description = viewed(&mut mcap, view::ROBOT_DESCRIPTION, &view::string_schema())?;
-        let state_message = cdr::encode(initial)?;
-        let digest = first_digest(&setup.files(), &state_message);
-        let mut writer = Self {
+        let mut channel = |topic: &str| -> Result<u16, LogError> {
+            let kind = schema::kinds()?.iter().find(|kind| kind.topic == topic);
+            add(kind.ok_or_else(|| LogError::Encode(format!("no channel {topic}")))?)
+        };
+        let channels = Channels {
+            hardware: channel(HARDWARE)?,
+            inputs: channel(INPUTS)?,
+            state: channel(STATE)?,
+            timing: channel(TIMING)?,
+            events: channel(EVENTS)?,
+            outputs: channel(OUTPUTS)?,
+            tf: channel(view::TF)?,
+            joy: channel(view::JOY)?,
+            fix: channel(view::FIX)?,
+            joints: channel(view::JOINT_STATES)?,
+            log: channel(view::LOG)?,
+            description: channel(view::ROBOT_DESCRIPTION)?,
+        };
+        Ok(Self {
             mcap,
             channels,
-            chain: Chain::from(digest),
-            last_tick: initial.tick,
+            topics,
+            chain: Chain::default(),
+            roll_call: RollCall::default(),
+            begun: false,
+            last_tick: 0,
             message: Vec::with_capacity(8192),
-            pivot_m: aircraft.rotors.pivot_m,
-            mast_m: aircraft.rotors.mast_length_m,
-        };
-        let text = cdr::encode_view(&view::Text { data: robot_description })?;
-        writer.put(description, 0, &text)?;
-        writer.record(writer.channels.state, 0, &StateRecord { digest, state: *initial })?;
-        writer.flush()?;
-        Ok(writer)
+            shape: view::Shape::default(),
+        })
     }
 
     /// A device event of the tick under way.
@@ -195,27 +241,61 @@ impl FlightWriter {
         self.put(self.channels.log, tick, &message)
     }
 
+    /// A message of another log as it stands there; `false` when no channel of ours is called so.
+    ///
+    /// The digest is formed anew from the copied bytes, and has to come out as recorded.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or the message does not follow from those before.
+    pub(crate) fn copy(&mut self, message: &Message) -> Result<bool, LogError> {
+        let known = self.topics.iter().find(|(_, topic)| **topic == message.topic);
+        let Some((&channel, _)) = known else { return Ok(false) };
+        match message.topic.as_str() {
+            HARDWARE | INPUTS => self.chain.add(&message.data),
+            STATE => {
+                let record: StateRecord = cdr::decode(&message.data)?;
+                let state = cdr::encode(&record.state)?;
+                // The first digest is not formed from messages alone: the reader has looked at it.
+                if self.begun && self.chain.close(&state) != record.digest {
+                    return Err(LogError::Order(format!("tick {}", record.state.tick)));
+                }
+                if !self.begun {
+                    self.chain = Chain::from(record.digest);
+                }
+                self.begun = true;
+                self.last_tick = record.state.tick;
+            }
+            _ => {}
+        }
+        self.stamped(channel, message.stamp, &message.data)?;
+        Ok(true)
+    }
+
+    /// Tick of the last state.
+    pub(crate) fn last_tick(&self) -> u64 {
+        self.last_tick
+    }
+
     /// What viewers draw; call it with every tick's outputs, it takes what it needs.
     ///
     /// # Errors
     /// When the file cannot be written.
     pub fn view(&mut self, outputs: &Outputs, attitude: Attitude) -> Result<(), LogError> {
         let tick = outputs.tick;
-        if tick.is_multiple_of(OUTPUT_TICKS) {
-            self.record(self.channels.outputs, tick, outputs)?;
-        }
-        if tick.is_multiple_of(VIEW_TICKS) {
-            let pivot = self.pivot_m.from_cg(outputs.balance.cg_m);
-            let tf = cdr::encode_view(&view::tf(outputs, attitude, pivot, self.mast_m))?;
-            self.put(self.channels.tf, tick, &tf)?;
-            let joy = cdr::encode_view(&view::joy(outputs))?;
-            self.put(self.channels.joy, tick, &joy)?;
-            let joints = cdr::encode_view(&view::joint_states(outputs))?;
-            self.put(self.channels.joints, tick, &joints)?;
-        }
-        if tick.is_multiple_of(FIX_TICKS) {
-            let fix = cdr::encode_view(&view::fix(outputs))?;
-            self.put(self.channels.fix, tick, &fix)?;
+        let channels = &self.channels;
+        let due = [
+            (channels.outputs, OUTPUTS, OUTPUT_TICKS),
+            (channels.tf, view::TF, VIEW_TICKS),
+            (channels.joy, view::JOY, VIEW_TICKS),
+            (channels.joints, view::JOINT_STATES, VIEW_TICKS),
+            (channels.fix, view::FIX, FIX_TICKS),
+        ];
+        for (channel, topic, ticks) in due {
+            if tick.is_multiple_of(ticks)
+                && let Some(message) = view::message(topic, outputs, attitude, &self.shape)?
+            {
+                self.put(channel, tick, &message)?;
+            }
         }
         Ok(())
     }
@@ -234,58 +314,55 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn finish(mut self) -> Result<Closed, LogError> {
         let digest = self.chain.digest();
-        let last_word = [(CLOSING_TICK, self.last_tick), (CLOSING_DIGEST, digest)];
-        self.mcap.write_metadata(&mcap::records::Metadata {
-            name: CLOSING.into(),
-            metadata: last_word.map(|(key, number)| (key.into(), number.to_string())).into(),
-        })?;
+        let last_word = [
+            (CLOSING_TICK, self.last_tick),
+            (CLOSING_DIGEST, digest),
+            (CLOSING_MESSAGES, self.roll_call.digest()),
+        ];
+        let mut facts = last_word.map(|(key, number)| (key.into(), number.to_string())).into();
+        seal(&mut facts);
+        self.mcap
+            .write_metadata(&mcap::records::Metadata { name: CLOSING.into(), metadata: facts })?;
         self.mcap.finish()?;
-        let file = self.mcap.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
-        Ok(Closed { bytes: file.metadata()?.len(), digest })
+        let mut whole = self.mcap.into_inner();
+        let bytes = whole.stream_position()?;
+        whole.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
+        Ok(Closed { bytes, digest })
     }
 
     /// Writes a recorded struct; its bytes stay in `self.message`.
     fn record<T: Serialize>(&mut self, channel: u16, tick: u64, value: &T) -> Result<(), LogError> {
-        self.message.clear();
-        cdr::append(&mut self.message, value)?;
-        let header = header(channel, tick);
-        Ok(self.mcap.write_to_known_channel(&header, &self.message)?)
+        let mut message = std::mem::take(&mut self.message);
+        message.clear();
+        cdr::append(&mut message, value)?;
+        let written = self.put(channel, tick, &message);
+        self.message = message;
+        written
     }
 
     fn put(&mut self, channel: u16, tick: u64, message: &[u8]) -> Result<(), LogError> {
-        Ok(self.mcap.write_to_known_channel(&header(channel, tick), message)?)
+        let log_time_ns = time_ns(tick);
+        // The sequence wraps after half a year of flight.
+        let sequence = tick as u32;
+        self.stamped(
+            channel,
+            Stamp { sequence, log_time_ns, publish_time_ns: log_time_ns },
+            message,
+        )
     }
-}
 
-fn header(channel_id: u16, tick: u64) -> MessageHeader {
-    let log_time = time_ns(tick);
-    // The sequence wraps after half a year of flight.
-    MessageHeader { channel_id, sequence: tick as u32, log_time, publish_time: log_time }
-}
-
-fn recorded<T: Serialize + Default>(
-    mcap: &mut Writer<BufWriter<File>>,
-    topic: &str,
-    name: &str,
-) -> Result<u16, LogError> {
-    let text = schema::ros2msg::<T>()?;
-    channel(mcap, topic, &format!("{}/msg/{name}", schema::PACKAGE), &text)
-}
-
-fn viewed(
-    mcap: &mut Writer<BufWriter<File>>,
-    topic: &str,
-    schema: &view::Schema,
-) -> Result<u16, LogError> {
-    channel(mcap, topic, schema.name, &schema.text)
-}
-
-fn channel(
-    mcap: &mut Writer<BufWriter<File>>,
-    topic: &str,
-    schema_name: &str,
-    schema_text: &str,
-) -> Result<u16, LogError> {
-    let schema = mcap.add_schema(schema_name, "ros2msg", schema_text.as_bytes())?;
-    Ok(mcap.add_channel(schema, topic, "cdr", &BTreeMap::new())?)
+    /// Every message goes through here.
+    fn stamped(&mut self, channel_id: u16, stamp: Stamp, message: &[u8]) -> Result<(), LogError> {
+        let header = MessageHeader {
+            channel_id,
+            sequence: stamp.sequence,
+            log_time: stamp.log_time_ns,
+            publish_time: stamp.publish_time_ns,
+        };
+        self.mcap.write_to_known_channel(&header, message)?;
+        if let Some(topic) = self.topics.get(&channel_id) {
+            self.roll_call.add(topic, stamp, message);
+        }
+        Ok(())
+    }
 }

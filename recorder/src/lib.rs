@@ -7,10 +7,10 @@
 mod clock;
 mod flight;
 mod hands;
-mod narrator;
 pub mod pilots;
 mod rehearsal;
 pub mod script;
+mod self_check;
 pub mod statistics;
 #[cfg(feature = "sticks")]
 pub mod sticks;
@@ -20,3 +20,5 @@ pub use clock::Pace;
 pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};
 pub use hands::{Hands, Reach};
 pub use rehearsal::{Moment, rehearse};
+pub use self_check::{Checked, Mismatch};
+pub use writer::Delay;

@@ -380,6 +380,7 @@ fn a_rehearsal_has_the_bits_of_the_flight() {
         real_time: false,
         ticks_max: Some(8 * TICKS_PER_S),
         link: None,
+        self_check: false,
     };
     let landing = fly(flight, &Progress::default()).expect("a flight");
     let _ = std::fs::remove_file(&out);

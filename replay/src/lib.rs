@@ -1,9 +1,19 @@
 //! Rerunning a flight log: bit-exact verification, and the review in the rerun viewer.
 
+pub mod compare;
+mod diff;
+mod divergence;
+pub mod growth;
 mod refly;
+mod stage;
 mod verify;
 #[cfg(feature = "rerun")]
 pub mod view;
 
+pub use diff::{
+    Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
+};
+pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use refly::{Reflight, Reflown, ReplayError};
-pub use verify::{Divergence, Outcome, Verdict, verify};
+pub use stage::Stage;
+pub use verify::{Options, Outcome, Verdict, verify};

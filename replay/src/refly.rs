@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use engine::{Aircraft, Inputs, Outputs, State, step};
-use logs::{Ending, FlightReader, LogError, Tick, cdr};
+use logs::{Ending, FlightReader, LogError, Setup, Tick, cdr};
 
 /// Why a log cannot be reflown.
 #[derive(Debug, thiserror::Error)]
@@ -45,11 +45,9 @@ impl Reflight {
     /// When it is not a flight log, or of another version, or its files cannot be read.
     pub fn open(path: &Path) -> Result<Self, ReplayError> {
         let reader = FlightReader::open(path)?;
-        let setup = &reader.setup;
-        let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
-        aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+        let aircraft = aircraft_of(&reader.setup)?;
         // The flight does not need it, but a log whose scenario cannot be read is not whole.
-        aircraft::start("scenario.toml", &setup.scenario_toml)?;
+        aircraft::start("scenario.toml", &reader.setup.scenario_toml)?;
         let state = reader.initial;
         Ok(Self { reader, aircraft, state, message: Vec::new() })
     }
@@ -69,8 +67,20 @@ impl Reflight {
         Ok(Some(Reflown { recorded, outputs, exact }))
     }
 
+    /// The state after the last tick, as a message.
+    pub fn message(&self) -> &[u8] {
+        &self.message
+    }
+
     /// How the log ends, once it has been flown.
     pub fn ending(&self) -> Ending {
         self.reader.ending().cloned().unwrap_or(Ending::Truncated)
     }
+}
+
+/// The aircraft of a log, with its cockpit map.
+pub(crate) fn aircraft_of(setup: &Setup) -> Result<Aircraft, ReplayError> {
+    let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
+    aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+    Ok(aircraft)
 }

@@ -3,22 +3,38 @@
 use std::fmt;
 use std::path::Path;
 
-use engine::STEP_S;
-use engine::inputs::{DeviceEvent, EventKind};
-use logs::fields::{Value, fields};
-use logs::{Ending, LogError};
+use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
+use logs::{Ending, Identity, LogError, Recovery, Tick, cdr};
 
+use crate::compare::Names;
+use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
+use crate::growth::WINDOW_TICKS;
 use crate::refly::{Reflight, ReplayError};
+
+/// How to verify.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Ticks that are still reflown after the first difference, to see how it grows.
+    pub growth_ticks: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { growth_ticks: WINDOW_TICKS }
+    }
+}
 
 /// What came out.
 #[derive(Clone, Debug)]
 pub struct Verdict {
+    /// The tick that the log begins with: ticks are counted from there.
+    pub start_tick: u64,
     /// Ticks in the log.
     pub ticks: u64,
     /// Ticks that are the same to the bit, from the first on.
     pub exact: u64,
     /// The first difference.
-    pub divergence: Option<Divergence>,
+    pub divergence: Option<Box<Divergence>>,
     /// First tick whose digest does not follow from what came before: the log was changed there.
     pub altered: Option<u64>,
     /// How the file ends.
@@ -27,23 +43,8 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
-}
-
-/// Where the reflown state is not the recorded one.
-#[derive(Clone, Debug)]
-pub struct Divergence {
-    /// Tick.
-    pub tick: u64,
-    /// Field of the state that differs first, in the order of the state.
-    pub path: String,
-    /// As recorded.
-    pub recorded: Value,
-    /// As reflown.
-    pub reflown: Value,
-    /// How many other fields differ.
-    pub others: usize,
-    /// The last input before it, if there was one.
-    pub last_input: Option<DeviceEvent>,
+    /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
+    pub recovered: Option<String>,
 }
 
 /// In one word.
@@ -59,6 +60,18 @@ pub enum Outcome {
     Incomplete,
 }
 
+impl Outcome {
+    /// As it stands in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Diverged => "diverged",
+            Self::Damaged => "damaged",
+            Self::Incomplete => "incomplete",
+        }
+    }
+}
+
 impl Verdict {
     /// In one word.
     pub fn outcome(&self) -> Outcome {
@@ -72,34 +85,81 @@ impl Verdict {
             Outcome::Exact
         }
     }
+
+    /// The last tick that is the same.
+    pub fn exact_tick(&self) -> u64 {
+        self.start_tick.saturating_add(self.exact)
+    }
+
+    /// The last tick of the log.
+    pub fn last_tick(&self) -> u64 {
+        self.start_tick.saturating_add(self.ticks)
+    }
+
+    /// Why it is exact up to there and no further, as a word for programs and in words for people.
+    pub fn stopped(&self) -> (&'static str, String) {
+        if let Some(divergence) = &self.divergence {
+            let field = &divergence.path;
+            return ("diverged", format!("the reflown {field} is not the recorded one"));
+        }
+        if let Some(disorder) = &self.disorder {
+            return ("disorder", disorder.clone());
+        }
+        match (&self.ending, &self.recovered) {
+            (Ending::Damaged(why), _) => ("damaged", format!("the file is damaged: {why}")),
+            (Ending::Truncated, Some(recovered)) => ("recovered", recovered.clone()),
+            (Ending::Truncated, None) => (
+                "never_closed",
+                "the log ends without having been closed: the flight was killed or the file was \
+                 cut, and what came after is lost"
+                    .into(),
+            ),
+            (Ending::Closed, _) => ("closed", "the log ends as its writer closed it".into()),
+        }
+    }
 }
 
 /// Reflies a log and compares every bit of every state.
 ///
+/// After the first difference the reflight goes on for a while, by the recorded inputs, to see what
+/// becomes of it; the rest of the log is only counted.
+///
 /// # Errors
 /// When it is not a flight log, or of another version, or its files cannot be read.
-pub fn verify(path: &Path, mut progress: impl FnMut(u64)) -> Result<Verdict, ReplayError> {
+pub fn verify(
+    path: &Path,
+    options: &Options,
+    mut progress: impl FnMut(u64),
+) -> Result<Verdict, ReplayError> {
     let mut flight = Reflight::open(path)?;
     let mut verdict = Verdict {
+        start_tick: flight.state.tick,
         ticks: 0,
         exact: 0,
         divergence: None,
-        altered: (!flight.reader.intact).then_some(0),
+        altered: (!flight.reader.intact).then_some(flight.state.tick),
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        recovered: recovered(&flight.reader.identity),
     };
-    let mut last_input = None;
+    let mut last_input = LastInput::new()?;
+    let mut watch = Watch::new()?;
+    let mut before = flight.state;
     loop {
-        // After the first difference the rest is only counted.
-        let step = if verdict.divergence.is_none() {
-            flight.next_tick().map(|reflown| reflown.map(|tick| (tick.recorded, tick.exact)))
+        let watched = verdict
+            .divergence
+            .as_ref()
+            .is_none_or(|divergence| verdict.last_tick() - divergence.tick < options.growth_ticks);
+        let next = if watched {
+            flight.next_tick().map(|next| next.map(|next| (next.recorded, Some(next.exact))))
         } else {
-            let tick = flight.reader.next_tick().map_err(ReplayError::from);
-            tick.map(|tick| tick.map(|tick| (tick, false)))
+            flight.reader.keep_outputs = false;
+            let next = flight.reader.next_tick().map_err(ReplayError::from);
+            next.map(|next| next.map(|recorded| (recorded, None)))
         };
-        let (tick, exact) = match step {
-            Ok(Some(tick)) => tick,
+        let (recorded, exact) = match next {
+            Ok(Some(next)) => next,
             Ok(None) => break,
             Err(ReplayError::Log(error @ (LogError::Order(_) | LogError::Decode(_)))) => {
                 verdict.disorder = Some(error.to_string());
@@ -108,78 +168,111 @@ pub fn verify(path: &Path, mut progress: impl FnMut(u64)) -> Result<Verdict, Rep
             Err(error) => return Err(error),
         };
         verdict.ticks += 1;
-        verdict.digest = tick.record.digest;
-        if !tick.chained && verdict.altered.is_none() {
-            verdict.altered = Some(tick.record.state.tick);
+        verdict.digest = recorded.record.digest;
+        let tick = verdict.last_tick();
+        if !recorded.chained && verdict.altered.is_none() {
+            verdict.altered = Some(tick);
         }
-        last_input = tick.events.last().copied().or(last_input);
-        if exact {
-            verdict.exact += 1;
-        } else if verdict.divergence.is_none() {
-            let recorded = fields(&tick.record.state).map_err(LogError::from)?;
-            let reflown = fields(&flight.state).map_err(LogError::from)?;
-            verdict.divergence =
-                divergence(tick.record.state.tick, &recorded, &reflown, last_input);
+        let parted = Parted { tick, recorded: &recorded.state_message, reflown: flight.message() };
+        match (&mut verdict.divergence, exact) {
+            (None, Some(exact)) => {
+                last_input.add(&recorded.events, &recorded.inputs)?;
+                if exact {
+                    verdict.exact += 1;
+                } else {
+                    let input = last_input.told(&flight.aircraft.cockpit);
+                    verdict.divergence =
+                        Divergence::new(&watch.states, &parted, input)?.map(Box::new);
+                    flight.reader.keep_outputs = true;
+                }
+            }
+            (Some(divergence), Some(_)) => {
+                divergence.growth.add(tick, parted.recorded, parted.reflown);
+            }
+            (_, None) => {}
         }
-        flight.reader.timings.clear();
+        if let (Some(divergence), Some(_)) = (&mut verdict.divergence, exact) {
+            // What blocks gave is recorded after the state: it is that of the tick before.
+            watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
+            watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
+        }
+        before = recorded.record.state;
+        flight.reader.forget();
         progress(verdict.ticks);
+    }
+    if let Some(divergence) = &mut verdict.divergence {
+        watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
     }
     verdict.ending = flight.ending();
     Ok(verdict)
 }
 
-fn divergence(
-    tick: u64,
-    recorded: &[logs::fields::Field],
-    reflown: &[logs::fields::Field],
-    last_input: Option<DeviceEvent>,
-) -> Option<Divergence> {
-    let mut differing = recorded
-        .iter()
-        .zip(reflown)
-        .filter(|(recorded, reflown)| recorded.value.bits() != reflown.value.bits());
-    let (recorded, reflown) = differing.next()?;
-    Some(Divergence {
-        tick,
-        path: recorded.path.clone(),
-        recorded: recorded.value,
-        reflown: reflown.value,
-        others: differing.count(),
-        last_input,
-    })
+fn recovered(identity: &Identity) -> Option<String> {
+    let parent = identity.0.get(Recovery::PARENT)?;
+    let (tick, reason) = (identity.get(Recovery::TICK), identity.get(Recovery::REASON));
+    Some(format!("it was recovered from {parent} up to tick {tick}, because {reason}"))
+}
+
+/// Single steps from the recorded states.
+struct Watch {
+    states: Names,
+    blocks: Names,
+    /// What the last one gave.
+    outputs: Option<Outputs>,
+}
+
+impl Watch {
+    fn new() -> Result<Self, LogError> {
+        Ok(Self { states: Names::of::<State>()?, blocks: Names::of::<Outputs>()?, outputs: None })
+    }
+
+    fn step(
+        &mut self,
+        aircraft: &Aircraft,
+        before: &State,
+        recorded: &Tick,
+        single: &mut SingleSteps,
+    ) -> Result<(), LogError> {
+        let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
+        let (stepped, outputs) = step(aircraft, before, &inputs);
+        self.outputs = Some(outputs);
+        single.add(&self.states, &recorded.state_message, &cdr::encode(&stepped)?);
+        Ok(())
+    }
+
+    fn outputs(&self, recorded: &[Outputs], single: &mut SingleSteps) -> Result<(), LogError> {
+        let Some(stepped) = &self.outputs else { return Ok(()) };
+        if let Some(recorded) = recorded.iter().find(|recorded| recorded.tick == stepped.tick) {
+            let (recorded, of_step) = (cdr::encode(recorded)?, cdr::encode(stepped)?);
+            single.add_outputs(&self.blocks, stepped.tick, &recorded, &of_step);
+        }
+        Ok(())
+    }
 }
 
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let time = |tick: u64| format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S);
-        match self.outcome() {
-            Outcome::Exact => {
-                write!(
-                    f,
-                    "exact: all {} ticks ({:.1} s), digest {:016x}",
-                    self.ticks,
-                    self.ticks as f64 * STEP_S,
-                    self.digest
-                )?;
-            }
-            Outcome::Incomplete => {
-                write!(
-                    f,
-                    "exact up to {}, where the log ends without having been closed: the flight was \
-                     killed or the file was cut, and what came after is lost",
-                    time(self.exact)
-                )?;
-            }
-            Outcome::Damaged | Outcome::Diverged => {
-                let more = if self.ending == Ending::Closed { "" } else { " or more" };
-                write!(f, "exact up to tick {} of {}{more}", self.exact, self.ticks)?;
-            }
+        if self.outcome() == Outcome::Exact {
+            writeln!(
+                f,
+                "exact: all {} ticks ({:.1} s), digest {:016x}",
+                self.ticks,
+                self.ticks as f64 * STEP_S,
+                self.digest
+            )?;
+        }
+        let more = if self.ending == Ending::Closed { "" } else { " or more" };
+        let (exact, last) = (self.exact_tick(), self.last_tick());
+        let (stopped, why) = self.stopped();
+        write!(f, "exact up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
+        if let Some(recovered) = self.recovered.as_ref().filter(|_| stopped != "recovered") {
+            write!(f, "\n{recovered}")?;
         }
         if let Some(divergence) = &self.divergence {
             write!(f, "\n{divergence}")?;
         }
         match self.altered {
-            Some(0) => write!(
+            Some(tick) if tick == self.start_tick => write!(
                 f,
                 "\nthe log was changed after the flight: its aircraft, cockpit map, scenario or \
                  first state is not what it was flown with"
@@ -187,50 +280,23 @@ impl fmt::Display for Verdict {
             Some(tick) => write!(
                 f,
                 "\nthe log was changed after the flight: the digest breaks at {}",
-                time(tick)
+                when(tick)
             )?,
             None => {}
         }
-        if let Some(disorder) = &self.disorder {
+        // Whatever stopped it first is told above.
+        if let (Some(_), Some(disorder)) = (&self.divergence, &self.disorder) {
             write!(f, "\n{disorder}")?;
         }
-        if let Ending::Damaged(why) = &self.ending {
-            write!(f, "\nthe file is damaged after {}: {why}", time(self.ticks))?;
+        if let Ending::Damaged(why) = &self.ending
+            && (self.divergence.is_some() || self.disorder.is_some())
+        {
+            write!(f, "\nthe file is damaged after {}: {why}", when(last))?;
         }
         Ok(())
     }
 }
 
-impl fmt::Display for Divergence {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "first difference: tick {} ({:.3} s)", self.tick, self.tick as f64 * STEP_S)?;
-        writeln!(f, "  field     {}", self.path)?;
-        for (name, value) in [("recorded", self.recorded), ("reflown", self.reflown)] {
-            writeln!(f, "  {name:<9} {value}  (0x{:016x})", value.bits())?;
-        }
-        let ulps = self.recorded.ulps_to(self.reflown);
-        writeln!(f, "  apart     {} ULP", ulps.map_or("?".into(), |ulps| ulps.to_string()))?;
-        writeln!(f, "  others    {} more fields differ at this tick", self.others)?;
-        match self.last_input {
-            None => write!(f, "  last input: none before it"),
-            Some(input) => {
-                let kind = match EventKind::from_u64(input.kind) {
-                    Some(EventKind::Axis) => "axis",
-                    Some(EventKind::Button) => "button",
-                    Some(EventKind::Connected) => "connected",
-                    Some(EventKind::Disconnected) => "disconnected",
-                    None => "event",
-                };
-                write!(
-                    f,
-                    "  last input: device {} {kind} 0x{:x} = {}, for tick {} ({:.3} s)",
-                    input.device,
-                    input.code,
-                    input.value,
-                    input.tick.saturating_add(1),
-                    input.tick.saturating_add(1) as f64 * STEP_S
-                )
-            }
-        }
-    }
+fn time_s(tick: u64) -> f64 {
+    tick as f64 * STEP_S
 }

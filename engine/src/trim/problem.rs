@@ -249,7 +249,9 @@ impl<'a> Problem<'a> {
         let lever_m = pilot.collective_norm * travel.collective_m;
         let from_lever_rad =
             mixer::lever_collective(&aircraft.fcc.mixer, sensed.mast_tilt_rad, lever_m);
-        let correction_rad = collective_rad - from_lever_rad;
+        let feed_forward_rad =
+            aircraft.fcc.governor.feed_forward_rad(sensed.mast_tilt_rad, from_lever_rad);
+        let correction_rad = collective_rad - feed_forward_rad;
         let reference_radps = state.plant.rotor_speed_radps;
         let governor =
             governor::State { reference_radps, integral_rad: correction_rad, correction_rad };

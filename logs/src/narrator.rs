@@ -3,9 +3,10 @@
 use engine::State;
 use engine::inputs::{DeviceEvent, EventKind, failures};
 use engine::outputs::{Outputs, validity};
-use logs::records::{Happening, InputsRecord};
-use logs::view::Level;
-use logs::{FlightWriter, LogError};
+
+use crate::records::{Happening, InputsRecord};
+use crate::view::Level;
+use crate::{FlightWriter, LogError};
 
 /// What was told last.
 pub struct Narrator {
@@ -28,6 +29,10 @@ impl Narrator {
         }
     }
 
+    /// A device event, after it was written.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn event(&self, writer: &mut FlightWriter, event: &DeviceEvent) -> Result<(), LogError> {
         let (what, words, level) = match EventKind::from_u64(event.kind) {
             Some(EventKind::Connected) => (Happening::DeviceConnected, "connected", Level::Info),
@@ -40,6 +45,10 @@ impl Narrator {
         writer.happened(event.tick, what, event.device, level, &words)
     }
 
+    /// The world of a tick, after it was written.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn inputs(
         &mut self,
         writer: &mut FlightWriter,
@@ -61,6 +70,10 @@ impl Narrator {
         Ok(())
     }
 
+    /// The state after a tick, after it was written.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn state(&mut self, writer: &mut FlightWriter, state: &State) -> Result<(), LogError> {
         if state.cockpit.markers != self.markers {
             self.markers = state.cockpit.markers;
@@ -77,6 +90,10 @@ impl Narrator {
         Ok(())
     }
 
+    /// What can be observed after a tick, after it was written.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn outputs(
         &mut self,
         writer: &mut FlightWriter,

@@ -1,0 +1,152 @@
+//! A stretch of flight without its states.
+//!
+//! It lists the messages in the file's order, one byte each: what a message is tells where its bytes
+//! come from. Device events, worlds and timings are rows of numbers; states and what viewers draw are
+//! flown again; anything else stands as it is, as a message of its own before the block.
+
+use super::columns::{Rows, Taker, put, zigzag};
+use super::flier::VIEWED;
+use crate::LogError;
+use crate::records::{HARDWARE, INPUTS, TIMING};
+
+/// Channels kept as rows.
+pub const ROWS: [&str; 3] = [HARDWARE, INPUTS, TIMING];
+
+/// Where a message's bytes come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Op {
+    /// The next row of one of [`ROWS`].
+    Row(u8),
+    /// The next state, flown again; its digest is kept.
+    State,
+    /// One of [`VIEWED`], made again from the outputs.
+    View(u8),
+    /// The state with which the block ends, as it was recorded: the last message before the block.
+    Keyframe,
+    /// The next message that stands as it was.
+    Plain,
+    /// Not a message: the writer closed a chunk here.
+    ChunkEnd,
+}
+
+impl Op {
+    fn byte(self) -> u8 {
+        match self {
+            Self::Row(number) => number,
+            Self::State => 8,
+            Self::View(number) => 16 + number,
+            Self::Keyframe => 32,
+            Self::Plain => 33,
+            Self::ChunkEnd => 34,
+        }
+    }
+
+    fn of(byte: u8) -> Option<Self> {
+        Some(match byte {
+            0..=2 => Self::Row(byte),
+            8 => Self::State,
+            16..=20 => Self::View(byte - 16),
+            32 => Self::Keyframe,
+            33 => Self::Plain,
+            34 => Self::ChunkEnd,
+            _ => return None,
+        })
+    }
+}
+
+/// The block.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Block {
+    /// Tick of the state before it.
+    pub first_tick: u64,
+    /// Its messages in order.
+    pub ops: Vec<Op>,
+    /// One for each of [`ROWS`].
+    pub rows: [Rows; ROWS.len()],
+    /// Digests of the states that are flown again.
+    pub digests: Vec<u64>,
+    /// Ticks of what is made again, one list for each of [`VIEWED`].
+    pub view_ticks: [Vec<u64>; VIEWED.len()],
+}
+
+impl Block {
+    /// An empty one that follows the state of a tick.
+    pub fn after(first_tick: u64) -> Self {
+        Self { first_tick, ..Self::default() }
+    }
+
+    /// As bytes.
+    pub fn encode(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        put(&mut bytes, self.first_tick);
+        put(&mut bytes, self.ops.len() as u64);
+        bytes.extend(self.ops.iter().map(|op| op.byte()));
+        for rows in &self.rows {
+            rows.encode(&mut bytes);
+        }
+        put(&mut bytes, self.digests.len() as u64);
+        bytes.extend(self.digests.iter().flat_map(|digest| digest.to_le_bytes()));
+        for ticks in &self.view_ticks {
+            put(&mut bytes, ticks.len() as u64);
+            let mut last = self.first_tick;
+            for &tick in ticks {
+                put(&mut bytes, zigzag(tick.wrapping_sub(last)));
+                last = tick;
+            }
+        }
+        bytes
+    }
+
+    /// From bytes.
+    pub fn decode(bytes: &[u8]) -> Result<Self, LogError> {
+        let mut from = Taker(bytes);
+        let first_tick = from.number()?;
+        let ops = from
+            .sized()?
+            .iter()
+            .map(|&byte| Op::of(byte).ok_or_else(|| unknown(byte)))
+            .collect::<Result<_, _>>()?;
+        let mut block = Self { first_tick, ops, ..Self::default() };
+        for rows in &mut block.rows {
+            *rows = Rows::decode(&mut from)?;
+        }
+        let digests = from.count(8)?;
+        let (digests, _) = from.bytes(8 * digests)?.as_chunks::<8>();
+        block.digests = digests.iter().map(|digest| u64::from_le_bytes(*digest)).collect();
+        for ticks in &mut block.view_ticks {
+            let mut last = first_tick;
+            for _ in 0..from.count(1)? {
+                last = last.wrapping_add(from.difference()?);
+                ticks.push(last);
+            }
+        }
+        if from.0.is_empty() { Ok(block) } else { Err(LogError::Decode("a block too long".into())) }
+    }
+}
+
+fn unknown(byte: u8) -> LogError {
+    LogError::Decode(format!("a block with a message of the unknown kind {byte}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_comes_back_and_a_cut_one_does_not() {
+        let mut block = Block::after(1000);
+        let ops = [Op::Row(0), Op::Row(1), Op::State, Op::Row(2), Op::View(4), Op::Plain];
+        block.ops.extend(ops.into_iter().chain([Op::ChunkEnd, Op::Keyframe]));
+        assert!(block.rows[0].push(&[7; 48]) && block.rows[1].push(&[1; 16]));
+        block.digests = vec![u64::MAX, 3];
+        block.view_ticks[4] = vec![995, 1005, 1000];
+        let bytes = block.encode();
+        assert_eq!(Block::decode(&bytes).unwrap(), block);
+        for cut in 0..bytes.len() {
+            assert!(Block::decode(&bytes[..cut]).is_err(), "cut at {cut}");
+        }
+        let mut longer = bytes.clone();
+        longer.push(0);
+        assert!(Block::decode(&longer).is_err());
+    }
+}

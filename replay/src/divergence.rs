@@ -1,0 +1,385 @@
+//! Where a reflown flight stops being the recorded one, and what became of it.
+
+use std::fmt;
+
+use engine::STEP_S;
+use engine::cockpit::Params as Cockpit;
+use engine::inputs::{DeviceEvent, EventKind};
+use logs::fields::Value;
+use logs::records::InputsRecord;
+use logs::units::with_unit;
+use logs::{LogError, cdr};
+
+use crate::compare::Names;
+use crate::growth::Growth;
+use crate::stage::Stage;
+
+/// The first difference between the recorded and the reflown flight.
+#[derive(Clone, Debug)]
+pub struct Divergence {
+    /// Tick.
+    pub tick: u64,
+    /// Stage of the step whose result differs first, in the order of its wiring.
+    pub stage: Option<Stage>,
+    /// Field of the state that differs first: the first one of that stage.
+    pub path: String,
+    /// Its unit; empty for a count, a flag, a ratio.
+    pub unit: String,
+    /// As recorded.
+    pub recorded: Value,
+    /// As reflown.
+    pub reflown: Value,
+    /// How many other fields differ at this tick.
+    pub others: usize,
+    /// Every stage whose result differs at this tick, in the order of the wiring, with the number of
+    /// its fields that do.
+    pub stages: Vec<(Stage, u64)>,
+    /// The last change of an input before it, if there was one.
+    pub last_input: Option<InputChange>,
+    /// How the difference grew while the reflight went on by the recorded inputs.
+    pub growth: Growth,
+    /// How single steps from the recorded states did.
+    pub single: SingleSteps,
+}
+
+/// Steps of one tick each, from every recorded state of the window: differences that do not add up.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SingleSteps {
+    /// How many were flown.
+    pub ticks: u64,
+    /// How many did not lead to the recorded state.
+    pub differing: u64,
+    /// In how many of them which stage differed first.
+    pub first_stages: Vec<(Stage, u64)>,
+    /// The first block whose recorded result, at the first tick for which there is one, is not what
+    /// it gives from the recorded state before.
+    pub block: Option<BlockDifference>,
+    /// Of the ticks with a recorded result of every block, how many were compared.
+    pub outputs: u64,
+}
+
+/// What a block gave, recorded and computed anew from the recorded state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlockDifference {
+    /// When.
+    pub tick: u64,
+    /// Which block.
+    pub stage: Stage,
+    /// Field of the outputs.
+    pub path: String,
+    /// Its unit.
+    pub unit: String,
+    /// As recorded.
+    pub recorded: Value,
+    /// As reflown.
+    pub reflown: Value,
+}
+
+/// Something that came from outside.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InputChange {
+    /// A device.
+    Device {
+        /// What it said.
+        event: DeviceEvent,
+        /// What it moves, by the cockpit map of the log; empty for nothing.
+        moves: String,
+    },
+    /// The world: wind, failures, pause.
+    World {
+        /// The tick whose step used it first.
+        tick: u64,
+        /// Field of the inputs.
+        path: String,
+        /// Its unit.
+        unit: String,
+        /// Before.
+        from: Value,
+        /// From then on.
+        to: Value,
+    },
+}
+
+impl InputChange {
+    /// The tick that it led to.
+    pub fn led_to_tick(&self) -> u64 {
+        let (Self::Device { event: DeviceEvent { tick, .. }, .. } | Self::World { tick, .. }) =
+            self;
+        tick.saturating_add(1)
+    }
+}
+
+/// Remembers the last change of an input.
+#[derive(Debug)]
+pub(crate) struct LastInput {
+    names: Names,
+    world: Option<InputsRecord>,
+    event: Option<DeviceEvent>,
+    changed: Option<InputChange>,
+}
+
+impl LastInput {
+    pub(crate) fn new() -> Result<Self, LogError> {
+        Ok(Self { names: Names::of::<InputsRecord>()?, world: None, event: None, changed: None })
+    }
+
+    /// The inputs of one tick.
+    pub(crate) fn add(
+        &mut self,
+        events: &[DeviceEvent],
+        inputs: &InputsRecord,
+    ) -> Result<(), LogError> {
+        if let Some(before) = self.world.replace(*inputs)
+            && before.world != inputs.world
+        {
+            let (a, b) = (cdr::encode(&before)?, cdr::encode(inputs)?);
+            let changed = self
+                .names
+                .differences(&a, &b)
+                .find(|difference| difference.name.path.starts_with("world."));
+            if let Some(difference) = changed {
+                self.changed = Some(InputChange::World {
+                    tick: inputs.tick,
+                    path: difference.name.path.clone(),
+                    unit: difference.name.unit.clone(),
+                    from: difference.a,
+                    to: difference.b,
+                });
+            }
+        }
+        self.event = events.last().copied().or(self.event);
+        Ok(())
+    }
+
+    /// The last one, in the words of the cockpit map; of the same tick the world's, which changes
+    /// less often than a stick.
+    pub(crate) fn told(&self, map: &Cockpit) -> Option<InputChange> {
+        let device =
+            self.event.map(|event| InputChange::Device { event, moves: moves(map, &event) });
+        match (&self.changed, device) {
+            (Some(world), Some(device)) if device.led_to_tick() > world.led_to_tick() => {
+                Some(device)
+            }
+            (Some(world), _) => Some(world.clone()),
+            (None, device) => device,
+        }
+    }
+}
+
+/// What an event moves.
+fn moves(map: &Cockpit, event: &DeviceEvent) -> String {
+    let Some(device) = usize::try_from(event.device).ok().and_then(|at| map.device.get(at)) else {
+        return String::new();
+    };
+    let controls: Vec<String> = match EventKind::from_u64(event.kind) {
+        Some(EventKind::Axis) => {
+            let axes = device.axis.iter().filter(|axis| axis.code == event.code);
+            axes.map(|axis| words(&format!("{:?}", axis.control))).collect()
+        }
+        Some(EventKind::Button) => {
+            let buttons = device.button.iter().filter(|button| button.code == event.code);
+            buttons.map(|button| words(&format!("{:?}", button.control))).collect()
+        }
+        _ => Vec::new(),
+    };
+    controls.join(", ")
+}
+
+/// `StickAft` as people write it.
+fn words(name: &str) -> String {
+    let mut words = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !words.is_empty() {
+            words.push(' ');
+        }
+        words.extend(letter.to_lowercase());
+    }
+    words
+}
+
+/// The states after the first tick that differs, as messages.
+pub(crate) struct Parted<'a> {
+    pub(crate) tick: u64,
+    pub(crate) recorded: &'a [u8],
+    pub(crate) reflown: &'a [u8],
+}
+
+impl Divergence {
+    /// What there is to say at once.
+    pub(crate) fn new(
+        names: &Names,
+        at: &Parted,
+        last_input: Option<InputChange>,
+    ) -> Result<Option<Self>, LogError> {
+        let mut found: Vec<_> = names
+            .differences(at.recorded, at.reflown)
+            .map(|difference| (Stage::of_state(&difference.name.path), difference))
+            .collect();
+        // What has no stage comes last; the order of the state decides within a stage.
+        found.sort_by_key(|(stage, difference)| (stage.is_none(), *stage, difference.index));
+        let Some((stage, first)) = found.first() else { return Ok(None) };
+        let mut stages: Vec<(Stage, u64)> = Vec::new();
+        for stage in found.iter().filter_map(|(stage, _)| *stage) {
+            count(&mut stages, stage);
+        }
+        let mut growth = Growth::new(at.tick, &first.name.path)?;
+        growth.add(at.tick, at.recorded, at.reflown);
+        Ok(Some(Self {
+            tick: at.tick,
+            stage: *stage,
+            path: first.name.path.clone(),
+            unit: first.name.unit.clone(),
+            recorded: first.a,
+            reflown: first.b,
+            others: found.len() - 1,
+            stages,
+            last_input,
+            growth,
+            single: SingleSteps::default(),
+        }))
+    }
+}
+
+impl SingleSteps {
+    /// What a step from the recorded state before gave, beside the recorded state after it.
+    pub(crate) fn add(&mut self, names: &Names, recorded: &[u8], stepped: &[u8]) {
+        self.ticks += 1;
+        if recorded == stepped {
+            return;
+        }
+        self.differing += 1;
+        let stages = names
+            .differences(recorded, stepped)
+            .filter_map(|difference| Stage::of_state(&difference.name.path));
+        if let Some(first) = stages.min() {
+            count(&mut self.first_stages, first);
+        }
+    }
+
+    /// What every block gave in such a step, beside what was recorded of it.
+    pub(crate) fn add_outputs(
+        &mut self,
+        names: &Names,
+        tick: u64,
+        recorded: &[u8],
+        stepped: &[u8],
+    ) {
+        self.outputs += 1;
+        let found = names
+            .differences(recorded, stepped)
+            .map(|difference| (Stage::of_outputs(&difference.name.path), difference))
+            .min_by_key(|(stage, difference)| (*stage, difference.index));
+        let Some((stage, first)) = found.filter(|_| self.block.is_none()) else { return };
+        self.block = Some(BlockDifference {
+            tick,
+            stage,
+            path: first.name.path.clone(),
+            unit: first.name.unit.clone(),
+            recorded: first.a,
+            reflown: first.b,
+        });
+    }
+}
+
+/// Adds one to a stage's count, in the order of the wiring.
+fn count(counts: &mut Vec<(Stage, u64)>, stage: Stage) {
+    match counts.iter_mut().find(|(known, _)| *known == stage) {
+        Some((_, number)) => *number += 1,
+        None => {
+            counts.push((stage, 1));
+            counts.sort_by_key(|(stage, _)| *stage);
+        }
+    }
+}
+
+/// `tick 5 (0.020 s)`.
+pub(crate) fn when(tick: u64) -> String {
+    format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S)
+}
+
+fn apart(recorded: Value, reflown: Value) -> String {
+    recorded.ulps_to(reflown).map_or("?".into(), |ulps| ulps.to_string())
+}
+
+fn counted(stages: &[(Stage, u64)]) -> String {
+    let each: Vec<_> =
+        stages.iter().map(|(stage, number)| format!("{} {number}", stage.name())).collect();
+    each.join(", ")
+}
+
+impl fmt::Display for Divergence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "first difference: {}", when(self.tick))?;
+        let stage = self.stage.map_or("(not known here)", Stage::name);
+        write!(f, "  stage     {stage}")?;
+        match self.stage.and_then(Stage::or_before) {
+            Some(before) => writeln!(f, ", or before it {before}")?,
+            None => writeln!(f)?,
+        }
+        if let Some(block) = &self.single.block {
+            writeln!(
+                f,
+                "  block     {}: {} at {}, recorded {}, reflown {}, {} ULP apart",
+                block.stage.name(),
+                block.path,
+                when(block.tick),
+                with_unit(block.recorded, &block.unit),
+                with_unit(block.reflown, &block.unit),
+                apart(block.recorded, block.reflown)
+            )?;
+        }
+        writeln!(f, "  field     {}", self.path)?;
+        for (name, value) in [("recorded", self.recorded), ("reflown", self.reflown)] {
+            let told = with_unit(value, &self.unit);
+            writeln!(f, "  {name:<9} {told}  (0x{:016x})", value.bits())?;
+        }
+        writeln!(f, "  apart     {} ULP", apart(self.recorded, self.reflown))?;
+        writeln!(
+            f,
+            "  others    {} more fields differ at this tick; by stage: {}",
+            self.others,
+            counted(&self.stages)
+        )?;
+        match &self.last_input {
+            None => writeln!(f, "  last input: none before it")?,
+            Some(input) => writeln!(f, "  last input: {input}")?,
+        }
+        write_single(f, &self.single)?;
+        write!(f, "{}", self.growth)
+    }
+}
+
+fn write_single(f: &mut fmt::Formatter<'_>, single: &SingleSteps) -> fmt::Result {
+    let SingleSteps { ticks, differing, first_stages, .. } = single;
+    writeln!(
+        f,
+        "  one step  from each recorded state: {differing} of {ticks} do not lead to the next one{}{}",
+        if first_stages.is_empty() { "" } else { "; first to differ: " },
+        counted(first_stages)
+    )
+}
+
+impl fmt::Display for InputChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Device { event, moves } => {
+                let kind = match EventKind::from_u64(event.kind) {
+                    Some(EventKind::Axis) => "axis",
+                    Some(EventKind::Button) => "button",
+                    Some(EventKind::Connected) => "connected",
+                    Some(EventKind::Disconnected) => "disconnected",
+                    None => "event",
+                };
+                let DeviceEvent { device, code, value, .. } = event;
+                write!(f, "device {device} {kind} 0x{code:x} = {value}")?;
+                if !moves.is_empty() {
+                    write!(f, " ({moves})")?;
+                }
+            }
+            Self::World { path, unit, from, to, .. } => {
+                write!(f, "{path} from {} to {}", with_unit(*from, unit), with_unit(*to, unit))?;
+            }
+        }
+        write!(f, ", for {}", when(self.led_to_tick()))
+    }
+}

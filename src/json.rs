@@ -1,0 +1,114 @@
+//! What reports for programs have in common; docs/reports.md says what is what.
+
+use engine::STEP_S;
+use logs::fields::Value as Number;
+use replay::growth::{Growth, Moment};
+use replay::{Divergence, InputChange, SingleSteps, Stage};
+use serde_json::{Value, json};
+
+/// A recorded number: its value (`null` where it is none) and its bits.
+pub fn number(number: Number) -> Value {
+    let value = match number {
+        Number::F64(value) => json!(value),
+        Number::U64(value) => json!(value),
+        Number::I64(value) => json!(value),
+    };
+    json!({ "value": value, "hex": format!("0x{:016x}", number.bits()) })
+}
+
+/// The first difference.
+pub fn divergence(divergence: &Divergence) -> Value {
+    json!({
+        "tick": divergence.tick,
+        "time_s": divergence.tick as f64 * STEP_S,
+        "stage": divergence.stage.map(Stage::name),
+        "or_before": divergence.stage.and_then(Stage::or_before),
+        "field": divergence.path,
+        "unit": divergence.unit,
+        "recorded": number(divergence.recorded),
+        "reflown": number(divergence.reflown),
+        "ulps": divergence.recorded.ulps_to(divergence.reflown),
+        "other_fields": divergence.others,
+        "stages": stages(&divergence.stages, "fields"),
+        "last_input": divergence.last_input.as_ref().map(input),
+        "single_steps": single(&divergence.single),
+        "growth": growth(&divergence.growth),
+    })
+}
+
+fn stages(counts: &[(Stage, u64)], of: &str) -> Value {
+    counts.iter().map(|(stage, count)| json!({ "stage": stage.name(), of: count })).collect()
+}
+
+fn input(input: &InputChange) -> Value {
+    let tick = input.led_to_tick();
+    let time_s = tick as f64 * STEP_S;
+    match input {
+        InputChange::Device { event, moves } => json!({
+            "tick": tick,
+            "time_s": time_s,
+            "from": "device",
+            "device": event.device,
+            "kind": event.kind,
+            "code": event.code,
+            "value": event.value,
+            "moves": moves,
+        }),
+        InputChange::World { path, unit, from, to, .. } => json!({
+            "tick": tick,
+            "time_s": time_s,
+            "from": "world",
+            "field": path,
+            "unit": unit,
+            "before": number(*from),
+            "after": number(*to),
+        }),
+    }
+}
+
+fn single(single: &SingleSteps) -> Value {
+    json!({
+        "ticks": single.ticks,
+        "differing": single.differing,
+        "first_stages": stages(&single.first_stages, "ticks"),
+        "blocks_compared_ticks": single.outputs,
+        "block": single.block.as_ref().map(|block| json!({
+            "tick": block.tick,
+            "stage": block.stage.name(),
+            "field": block.path,
+            "unit": block.unit,
+            "recorded": number(block.recorded),
+            "reflown": number(block.reflown),
+            "ulps": block.recorded.ulps_to(block.reflown),
+        })),
+    })
+}
+
+/// How a difference grows.
+pub fn growth(growth: &Growth) -> Value {
+    json!({
+        "first_tick": growth.first_tick,
+        "last_tick": growth.last_tick,
+        "differing_ticks": growth.differing_ticks,
+        "same_from_tick": growth.same_from,
+        "doubling_s": growth.doubling_s(),
+        "moments": growth.moments.iter().map(moment).collect::<Vec<_>>(),
+    })
+}
+
+fn moment(moment: &Moment) -> Value {
+    let groups = moment.groups.iter().map(|group| {
+        json!({
+            "group": group.group,
+            "unit": group.unit,
+            "absolute": group.absolute,
+            "ulps": group.ulps,
+        })
+    });
+    json!({
+        "after_s": moment.after_s,
+        "tick": moment.tick,
+        "fields": moment.fields,
+        "groups": groups.collect::<Vec<_>>(),
+    })
+}
