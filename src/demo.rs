@@ -33,9 +33,9 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     );
     say!("pilot model whose stick, lever, pedals and switches take the path that hardware takes.");
     if args.common.fast {
-        say!("A little over three minutes of flight, as fast as it goes. Ctrl-C ends it.");
+        say!("Three and a half minutes of flight, as fast as it goes. Ctrl-C ends it.");
     } else {
-        say!("It takes a little over three minutes; `--fast` flies it in seconds. Ctrl-C ends it.");
+        say!("It takes three and a half minutes; `--fast` flies it in seconds. Ctrl-C ends it.");
     }
     if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
         say!("Live in FlightGear at {}.", link.destination());

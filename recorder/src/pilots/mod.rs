@@ -11,6 +11,7 @@ mod skill;
 
 use engine::cockpit::{self, AxisControl};
 use engine::frames::{Ned, Vec3};
+use engine::outputs::validity;
 use engine::{Outputs, STEP_S};
 
 pub use device::{DEVICE, VirtualDevice};
@@ -34,6 +35,9 @@ pub const PILOTS: [(&str, &str); 7] = [
 pub fn lands(name: &str) -> bool {
     matches!(name, "demo" | "land")
 }
+
+/// Higher than this it has flown, m.
+const FLOWN_M: f64 = 5.0;
 
 /// From standing on the runway to flying as a helicopter.
 const TAKE_OFF: [(&str, Phase); 3] = [
@@ -103,6 +107,8 @@ pub struct Pilot {
     skill: Skill,
     started: bool,
     touched_tick: Option<u64>,
+    /// It has been in the air.
+    flown: bool,
     /// The thumb on the nacelle switch: −1 forward, 0 off it, 1 aft.
     thumb: i8,
     /// When the other hand last moved a handle.
@@ -123,6 +129,7 @@ impl Pilot {
             skill: Skill::default(),
             started: false,
             touched_tick: None,
+            flown: false,
             thumb: 0,
             handle_tick: 0,
         })
@@ -131,6 +138,23 @@ impl Pilot {
     /// Names of its phases, in order, for a flight that begins on the wheels.
     pub fn phases(&self) -> Vec<&'static str> {
         self.phases.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// Who stands on the ground after a flight, wanted or not, has landed: a stopped engine may not let
+    /// an aircraft hover.
+    fn give_up_flying(&mut self, seen: &Outputs, tick: u64) {
+        let eyes = Eyes::look(seen);
+        self.flown |= seen.height_above_ground_m > FLOWN_M;
+        let landing = |phase: &(&str, Phase)| phase.1 == Phase::Land;
+        let down = eyes.on_wheels_norm > 0.7 || seen.validity & validity::HULL != 0;
+        if !(self.flown && down) || self.phases.get(self.at).is_none_or(landing) {
+            return;
+        }
+        self.phases.truncate(self.at + 1);
+        self.phases.push(("on the ground", Phase::Land));
+        self.at += 1;
+        self.since_tick = tick;
+        self.touched_tick = Some(tick);
     }
 
     fn begin(&mut self, seen: &Outputs) {
@@ -150,6 +174,7 @@ impl Hands for Pilot {
         if !self.started {
             self.begin(seen);
         }
+        self.give_up_flying(seen, reach.tick);
         let Some(&(name, phase)) = self.phases.get(self.at) else {
             *reach.done = true;
             return;
@@ -163,7 +188,7 @@ impl Hands for Pilot {
         self.device.set(reach, AxisControl::PedalRight, to.pedal_right_norm);
         self.device.set(reach, AxisControl::Collective, to.lever_norm);
         self.switches(seen, reach);
-        if over {
+        if over || since_s > phase.patience_s() {
             self.at += 1;
             self.since_tick = reach.tick;
             self.order.turned_rad = 0.0;

@@ -41,6 +41,17 @@ pub enum Phase {
     Land,
 }
 
+impl Phase {
+    /// When a pilot no longer waits for what does not come, s.
+    pub fn patience_s(self) -> f64 {
+        match self {
+            Self::Wait { .. } | Self::Hold { .. } | Self::Circle { .. } => f64::INFINITY,
+            Self::Stop { .. } | Self::Approach { .. } => 300.0,
+            _ => 120.0,
+        }
+    }
+}
+
 /// Which way the nacelles are to go.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Nacelles {
@@ -111,6 +122,9 @@ const DESCENT_MPS: f64 = 28.0;
 const LOWER_PER_S: f64 = 0.3;
 /// From touchdown to the end of the flight, s.
 const SETTLE_S: f64 = 5.0;
+/// A run-on landing that is faster than this is still one, m/s, and for this long, s.
+const ROLLING_MPS: f64 = 0.3;
+const ROLL_S: f64 = 60.0;
 /// The gear goes through its cycle below this calibrated airspeed only, m/s: 160 kt, less 10.
 const GEAR_MPS_MAX: f64 = 150.0 * KNOT_MPS;
 /// As an aeroplane flaps 20 below the first calibrated airspeed, flaps up above the second, m/s.
@@ -187,9 +201,10 @@ impl Pilot {
                 let off_rad = wrap_angle(order.start_heading_rad - seen.euler.heading_rad);
                 off_rad.abs() < 0.05 && seen.angular_rate_radps.z.abs() < 0.03
             }
-            Phase::Land => self
-                .touched_tick
-                .is_some_and(|touched| (reach.tick - touched) as f64 * STEP_S > SETTLE_S),
+            Phase::Land => self.touched_tick.is_some_and(|touched| {
+                let down_s = (reach.tick - touched) as f64 * STEP_S;
+                down_s > SETTLE_S && (seen.velocity_mps.norm() < ROLLING_MPS || down_s > ROLL_S)
+            }),
         }
     }
 
