@@ -165,6 +165,12 @@ impl FlightReader {
                 {
                     robot_description = view::text(&data)?;
                 }
+                // Nothing would look at it again.
+                Some(Item::Message(Message { topic, .. }))
+                    if [HARDWARE, INPUTS].contains(&topic.as_str()) =>
+                {
+                    return Err(LogError::Order(format!("{topic} before the first {STATE}")));
+                }
                 Some(Item::Message(Message { topic, data, .. })) if topic == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
