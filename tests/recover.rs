@@ -10,7 +10,7 @@ use common::{
     DIVERGED, Dice, Forgery, INCOMPLETE, OK, Said, UNUSABLE, all, flip_state_bit, folder, hover,
     place_of, text, tiltrotor, verify,
 };
-use logs::records::{HARDWARE, OUTPUTS, STATE, TIMING, TimingRecord};
+use logs::records::{HARDWARE, INPUTS, OUTPUTS, STATE, TIMING, TimingRecord};
 use logs::{Ending, FlightReader, Tick};
 
 /// Two seconds by the pilot model.
@@ -160,6 +160,33 @@ fn what_other_tools_repaired_beside_the_flight_is_named_and_the_flight_is_kept()
         let kept = recovered(&broken, &place.join(format!("{name}-ok.mcap")));
         assert_eq!(kept, Ok(500), "{name}");
     }
+}
+
+#[test]
+fn a_tick_s_message_before_the_first_state_is_refused() {
+    let place = folder("recover-before");
+    for topic in [HARDWARE, INPUTS] {
+        let mut log = Forgery::of(flight());
+        let again = log.messages[log.places(topic)[20]].clone();
+        log.messages.insert(0, again);
+        let broken = place.join("before.mcap");
+        log.write(&broken);
+        let why = format!("{topic} before the first /state");
+        verify(&broken).refused().says(&why);
+        recover(&broken, &place.join("fixed.mcap")).refused().says(&why);
+    }
+}
+
+#[test]
+fn a_tick_with_a_wrong_time_is_the_same_tick() {
+    let place = folder("recover-time");
+    let mut log = Forgery::of(flight());
+    let at = log.places(STATE)[100];
+    log.messages[at].log_time = u64::MAX / 2;
+    let broken = place.join("time.mcap");
+    log.write(&broken);
+    verify(&broken).ends(UNUSABLE).says("a message beside the flight itself");
+    assert_eq!(recovered(&broken, &place.join("fixed.mcap")), Ok(500));
 }
 
 #[test]

@@ -195,6 +195,11 @@ impl FlightReader {
                 Some(Item::Message(message)) if message.topic() == view::ROBOT_DESCRIPTION => {
                     robot_description = view::text(&message.data)?;
                 }
+                // Nothing would look at it again.
+                Some(Item::Message(message)) if [HARDWARE, INPUTS].contains(&message.topic()) => {
+                    let topic = message.topic();
+                    return Err(LogError::Order(format!("{topic} before the first {STATE}")));
+                }
                 Some(Item::Message(message)) if message.topic() == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {

@@ -141,7 +141,7 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
         if flown && copied == Some(recovery.tick) {
             break;
         }
-        if message.time_ns > time_ns(recovery.tick) {
+        if !flown && message.time_ns > time_ns(recovery.tick) {
             // Viewers' channels may be a few ticks ahead.
             continue;
         }
