@@ -145,9 +145,9 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
          Hover, heave: blade elements against momentum have .14 to .20 1/s at this disc loading, whether \
          collective or power stands; .105 is less than either.\n\n\
          Cruise: the flight model's elevator has 7.4 deg/s² per degree, the reference model's tables (2.29 \
-         of lift per rad, KH has the same) 13.5, or 10.8 with the tail's pressure factor K_HNU = .8 of \
-         CR-166536. Phase, frequency and damping agree; the gain is about 3 dB high throughout, which is \
-         that elevator, or the degrees that the sweep's report calls elevator.",
+         of lift per rad, KH has the same) 13.5, with the pressure factor of the tail that CR-166536 gives \
+         (.8, here as an aeroplane only: the printouts at 40 to 100 kt leave it out) 10.8. That is the 3 dB \
+         which are left.",
     );
     let hover = hovering(aircraft);
     let cruise = cruising(aircraft);
