@@ -469,9 +469,9 @@ fn no_number_in_a_log_makes_the_program_panic() {
 
 #[test]
 fn a_log_of_another_model_or_format_is_refused_by_name() {
-    let model = engine::MODEL_VERSION;
+    let (model, format) = (engine::MODEL_VERSION, logs::records::FORMAT_VERSION);
     for (key, what, ours) in
-        [("model_version", "flight model", model), ("format_version", "log format", "1")]
+        [("model_version", "flight model", model), ("format_version", "log format", format)]
     {
         let mut other = Forgery::of(short_flight());
         other.metadata[0].metadata.insert(key.into(), "99".into());

@@ -16,7 +16,7 @@ use crate::records::{
     EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
     TimingRecord,
 };
-use crate::{LogError, cdr};
+use crate::{LogError, cdr, schema};
 
 /// How messages of a log's layout become today's struct: by the names of the fields.
 #[derive(Clone, Debug)]
@@ -139,7 +139,9 @@ impl Mappings {
             _ => return cdr::decode(message),
         };
         // Without a schema it is taken for today's: the length will tell.
-        let Some(layout) = layout else { return cdr::decode(message) };
+        let Some(layout) = layout.filter(|layout| !is_todays(layout)) else {
+            return cdr::decode(message);
+        };
         let mapping = match slot {
             Some(mapping) => mapping,
             None => {
@@ -203,6 +205,15 @@ impl Mappings {
         ];
         Ok(all.into_iter().flatten().collect())
     }
+}
+
+/// Whether it is the very layout that the reader gives to channels whose definition is today's.
+fn is_todays(layout: &Layout) -> bool {
+    let kinds = schema::kinds().unwrap_or_default();
+    kinds
+        .iter()
+        .filter_map(|kind| kind.layout.as_deref())
+        .any(|todays| std::ptr::eq(todays, layout))
 }
 
 #[cfg(test)]

@@ -409,7 +409,7 @@ impl FlightReader {
     where
         T: Serialize + DeserializeOwned + Default,
     {
-        self.mappings.decode(&channel.topic, channel.layout.as_ref(), message)
+        self.mappings.decode(&channel.topic, channel.layout.as_deref(), message)
     }
 
     /// Where the log's layout is not today's, channel by channel.
@@ -627,7 +627,7 @@ impl Message {
 
     /// What its numbers are called, by the log's own schema; `None` on channels for viewers.
     pub fn layout(&self) -> Option<&Layout> {
-        self.channel.layout.as_ref()
+        self.channel.layout.as_deref()
     }
 
     /// The numbers of a recorded struct, by the log's own schema; `None` on channels for viewers.
@@ -707,7 +707,7 @@ enum Item {
 struct Channel {
     topic: String,
     /// `None` when its messages are no recorded struct.
-    layout: Option<Layout>,
+    layout: Option<Arc<Layout>>,
     definition: Arc<Definition>,
 }
 
@@ -951,12 +951,20 @@ impl Records {
         let ours = definition.encoding == schema::ENCODING
             && definition.name.split('/').next() == Some(schema::PACKAGE)
             && channel.topic.chars().all(plain);
-        let layout = std::str::from_utf8(&definition.text).ok().filter(|_| ours);
-        let layout = layout.and_then(Layout::parse);
         let kinds = schema::kinds().unwrap_or_default();
-        if let Some(kind) = kinds.iter().find(|kind| kind.topic == channel.topic) {
+        let kind = kinds.iter().find(|kind| kind.topic == channel.topic);
+        let layout = match kind.filter(|kind| kind.text.as_bytes() == definition.text) {
+            // Most logs are today's: nothing to be parsed.
+            Some(kind) => kind.layout.clone().filter(|_| ours),
+            None => std::str::from_utf8(&definition.text)
+                .ok()
+                .filter(|_| ours)
+                .and_then(Layout::parse)
+                .map(Arc::new),
+        };
+        if let Some(kind) = kind {
             // Its fields may be others than today's; what they are called has to be said.
-            let named = layout.is_some() || Layout::parse(&kind.text).is_none();
+            let named = layout.is_some() || kind.layout.is_none();
             if !named || definition.name != kind.name || channel.message_encoding != cdr::ENCODING {
                 self.oddity(&format!("the definition of {} is not as written", kind.topic));
             }

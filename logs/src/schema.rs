@@ -1,13 +1,14 @@
 //! `ros2msg` schemas, generated from the recorded structs themselves.
 
 use std::fmt::Write;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use engine::Outputs;
 use engine::inputs::DeviceEvent;
 use serde::Serialize;
 
 use crate::fields::{Node, tree};
+use crate::layout::Layout;
 use crate::records::{
     EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
     TimingRecord,
@@ -28,6 +29,8 @@ pub(crate) struct Kind {
     pub name: String,
     /// Its definition.
     pub text: String,
+    /// What its numbers are called; `None` when it is for viewers.
+    pub layout: Option<Arc<Layout>>,
 }
 
 /// Every channel of a flight log, made once.
@@ -40,12 +43,14 @@ pub(crate) fn kinds() -> Result<&'static [Kind], LogError> {
         return Ok(kinds);
     }
     fn recorded<T: Serialize + Default>(topic: &'static str, name: &str) -> Result<Kind, LogError> {
-        Ok(Kind { topic, name: format!("{PACKAGE}/msg/{name}"), text: ros2msg::<T>()? })
+        let layout = Some(Arc::new(Layout::of::<T>()?));
+        Ok(Kind { topic, name: format!("{PACKAGE}/msg/{name}"), text: ros2msg::<T>()?, layout })
     }
     let viewed = |topic, schema: view::Schema| Kind {
         topic,
         name: schema.name.to_string(),
         text: schema.text,
+        layout: None,
     };
     let kinds = vec![
         recorded::<DeviceEvent>(HARDWARE, "DeviceEvent")?,
