@@ -85,7 +85,8 @@ fn power_lever_up_climbs_as_a_helicopter_and_accelerates_as_an_aeroplane() {
 }
 
 /// TM812: conversion gives a nose-down moment and some 0.4 g. For the first second the tail, which loses the
-/// rotors' upwash (CR536 2-I), holds against it with some 1000 N m.
+/// rotors' upwash, holds against it with some 1000 N m: CR536's tables 2-Ia to 2-Ic say so (.90 of the induced
+/// velocity upright, .48 at 30 deg), and the nose-down moment of steady flight comes after it.
 #[test]
 fn nacelles_forward_accelerate_and_pitch_the_nose_down() {
     let xv15 = xv15();

@@ -71,9 +71,10 @@ impl Loads {
 pub struct Outputs {
     /// Ticks flown.
     pub tick: u64,
-    /// Where, on the ellipsoid.
+    /// Where, on the ellipsoid: the point that is the centre of gravity as a helicopter. It is fixed in
+    /// the structure, which the centre of gravity is not when the nacelles tilt.
     pub place: Geodetic,
-    /// Where, from the origin.
+    /// Where, from the origin: the centre of gravity.
     pub position_m: Vec3<Ned>,
     /// Centre of gravity over the ground.
     pub height_above_ground_m: f64,

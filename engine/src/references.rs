@@ -2,8 +2,9 @@
 //!
 //! - **CR536**: Ferguson, *A Mathematical Model for Real Time Flight Simulation of a Generic
 //!   Tilt-Rotor Aircraft*, NASA CR-166536 Rev. A, 1988. The reference model (GTRS) and its XV-15
-//!   data. Taken: tables, gearing, structure, all through transcriptions by others, as the trust
-//!   labels in the aircraft file say. Doubted: single-source constants.
+//!   data. Taken: tables, gearing, structure, lists of symbols, all through transcriptions by others, as
+//!   the trust labels in the aircraft file say. Doubted: single-source constants, and one column of wing
+//!   lift (upright, flaps 40/25), with which CR537's printouts were not run.
 //! - **CR537**: Ferguson, *Development and Validation of a Simulation for a Generic Tilt-Rotor
 //!   Aircraft*, NASA CR-166537, 1989. Trim printouts, with the loads of every component.
 //! - **TMX**: Maisel (ed.), *NASA/Army XV-15 Tilt Rotor Research Aircraft Familiarization Document*,

@@ -11,7 +11,7 @@
 use crate::aero::{
     Motion, fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
 };
-use crate::frames::{Body, Euler, Load, Ned, Rotation, Vec3};
+use crate::frames::{Body, Euler, Load, Ned, Rotation, Structural, Vec3};
 use crate::inputs::World;
 use crate::landing_gear::{Struts, Tread};
 use crate::math::{PI, TAU, atan2, max, min, sqrt, square};
@@ -184,6 +184,8 @@ struct Gear {
 struct Blocks {
     ground_height_m: f64,
     hull_height_m: f64,
+    /// A point of the structure.
+    fixed_m: Vec3<Structural>,
     air: environment::Outputs,
     motion: Motion,
     balance: weight_balance::Outputs,
@@ -302,6 +304,7 @@ impl Blocks {
         Self {
             ground_height_m: world.ground_height_m,
             hull_height_m: aircraft.landing_gear.hull_height_m,
+            fixed_m: aircraft.weight_balance.cg_m,
             air: *air,
             motion,
             balance,
@@ -325,9 +328,10 @@ impl Blocks {
         let specific_force_mps2 = self.total.force_n * (1.0 / self.balance.mass_kg);
         let flow = self.motion.airspeed_mps;
         let in_plane_mps = sqrt(square(flow.x) + square(flow.z));
+        let fixed = self.fixed_m.from_cg(self.balance.cg_m);
         Outputs {
             tick: next.tick,
-            place: place(&plant.origin, plant.position_m),
+            place: place(&plant.origin, plant.position_m + plant.attitude.ned_from_body() * fixed),
             position_m: plant.position_m,
             height_above_ground_m: self.height_above_ground_m(next),
             velocity_mps: plant.velocity_mps,

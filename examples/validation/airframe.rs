@@ -23,6 +23,8 @@ struct Printed {
     wing: [f64; 3],
     tail: [f64; 3],
     rotor: [f64; 3],
+    /// Of the right rotor, outboard, lbf.
+    rotor_outboard_lbf: f64,
 }
 
 const PRINTED: [Printed; 2] = [
@@ -38,6 +40,7 @@ const PRINTED: [Printed; 2] = [
         wing: [-504.9, -600.2, 944.4],
         tail: [-3.9, -75.4, -1619.0],
         rotor: [-24.6, -6091.7, 627.2],
+        rotor_outboard_lbf: 367.1,
     },
     Printed {
         name: "80 kt",
@@ -51,6 +54,7 @@ const PRINTED: [Printed; 2] = [
         wing: [-1716.7, -479.6, 1714.4],
         tail: [-10.7, 31.1, 689.6],
         rotor: [-137.6, -6177.5, 1442.4],
+        rotor_outboard_lbf: 243.1,
     },
 ];
 
@@ -118,7 +122,12 @@ pub fn components(aircraft: &Aircraft, book: &mut Book) {
          where both transcriptions of Rev. A have .291 and .518, on a line whose slope its table 4-IX \
          confirms. The printout was run with another column (to .004 of CL that of flaps 20/12.5 plus \
          .206), and that is all of the wing's Z and M. The fuselage's printed X has 1.00 ft² of drag \
-         beside its table, Rev. A's DLANG and D_POD make .65.",
+         beside its table, Rev. A's DLANG and D_POD make .65. A rotor's printed M is that of its X and Z at \
+         a hub 6.2 ft above the centre and a hub moment of -134 and -28 ft·lbf: by 225 ft·lbf/deg a disc \
+         tilted .6 and .1 deg forward. Ours is tilted 1 deg further aft at the same cyclic: thrust times \
+         that is what X misses, 6.2 ft of it what M does. The printed Y is outboard; the lateral cyclic \
+         that 8a-VIII programmes from 40 kt on, -4 deg, would turn ours inboard (-181 and -219 lbf), so \
+         the printouts are without it, as this case is; the trims of case 3 are with it.",
     );
     for printed in &PRINTED {
         let (followed, forced) = held(aircraft, printed);
@@ -139,6 +148,9 @@ pub fn components(aircraft: &Aircraft, book: &mut Book) {
         add("wing, pylons, spinners", &printed.wing, loads.wing_pylon.sum(), 0.05);
         add("tail", &printed.tail, loads.horizontal_stabilizer, 0.05);
         add("rotor", &printed.rotor, followed.loads.rotors.right, 0.05);
+        let outboard_lbf = followed.loads.rotors.right.force_n.y / POUND_N;
+        let row = format!("{name}: rotor Y, outboard, lbf");
+        case.row(row, printed.rotor_outboard_lbf, outboard_lbf, Band::Part(0.05), 1);
     }
     book.add(case);
 }

@@ -215,7 +215,8 @@ Stick is in inches from the aft stop, neutral at 4.8. Power is that of both roto
 
 const FOOT: &str = "
 ## What was fitted
-The rotor's section drag and induced factor are estimates fitted to the isolated rotor of case 1, and the
+The rotor's induced factor is an estimate fitted to the isolated rotor of case 1, what hover costs beyond it is
+the ratio of the tests of cases 2 and 1, the engine's fuel flow is fitted to two points of case 5, and the
 flap's lift and drag to the reference model's wing tables: agreement there is calibration, not proof.
 
 ## Compared elsewhere

@@ -17,8 +17,9 @@
 //! edge right. Slip ball to the right. Engines: left, right. Wheels: nose, left, right.
 //!
 //! # Assumptions
-//! The place is that of the centre of gravity, and so are the accelerations, although FlightGear
-//! calls them the pilot's: the aircraft file holds no seat. Height above mean sea level is given as
+//! The place is that of a fixed point of the structure, the centre of gravity as a helicopter: the
+//! model must not shift in it as the nacelles tilt. The accelerations are those of the centre of
+//! gravity, although FlightGear calls them the pilot's: the aircraft file holds no seat. Height above mean sea level is given as
 //! FlightGear's, which is above the ellipsoid. One tank holds all fuel. The engine model gives the
 //! fuel flow of both engines together; it is split as the power is. Pressures and temperatures of
 //! the engines are not modelled and sent as 0.

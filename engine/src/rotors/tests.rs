@@ -115,14 +115,16 @@ fn heave_damping(params: &Params, collective_rad: f64, rise_mps: f64) -> f64 {
     (still - settled(params, &inputs).1.thrust_n) / rise_mps
 }
 
-/// T_w = ½K/(1 + K/(4ρA·v0)), K = ¼ρabcΩR²: blade elements against the momentum of the disc.
+/// T_w = ½K/(1 + K/(4ρA·v0)), K = ¼ρabcΩR²·(B² − x0²): blade elements against the momentum of the disc.
 #[test]
 fn heave_in_hover_is_damped_as_momentum_theory_says_both_ways() {
     let params = ideal();
     let (state, _) = settled(&params, &hovering(8.0 * DEG));
     let root = square(params.blade.root_norm);
+    let inflow = state.inflow.mean_mps / (OMEGA * params.radius_m);
+    let tip = square(1.0 - 2.0 * core::f64::consts::LN_2 / 3.0 * inflow);
     let bladed =
-        3.0 * 0.3556 * 5.7 * DENSITY * OMEGA * square(params.radius_m) * (1.0 - root) / 4.0;
+        3.0 * 0.3556 * 5.7 * DENSITY * OMEGA * square(params.radius_m) * (tip - root) / 4.0;
     let disc = 4.0 * DENSITY * params.disc_area_m2() * state.inflow.mean_mps;
     let expected = 0.5 * bladed / (1.0 + bladed / disc);
     for rise_mps in [0.5, -0.5] {
