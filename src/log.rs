@@ -1,15 +1,19 @@
 //! `tiltrotor log`.
 
+mod compact;
+mod trim;
+
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
-use logs::{Ending, FlightReader, LogError, Messages};
+use logs::{Ending, LogError};
 use recorder::statistics::Statistics;
 
 use crate::report;
+use crate::window::WindowArgs;
 
 /// What to do with a log.
 #[derive(clap::Subcommand)]
@@ -26,19 +30,38 @@ pub enum Command {
         /// Only this channel (/state, /inputs, /hardware, /timing, /events, /outputs)
         #[arg(long)]
         topic: Option<String>,
+        #[command(flatten)]
+        window: WindowArgs,
     },
+    /// What an engineer reads of a flight: events, greatest values and when, touchdown, where it ended
+    Summary {
+        /// The log
+        log: PathBuf,
+        #[command(flatten)]
+        window: WindowArgs,
+    },
+    /// A part of a log as a log of its own, which names its parent; or as a golden flight
+    Trim(trim::Args),
+    /// Inputs, keyframes and digests kept, states dropped: they can be flown again
+    Compact(compact::CompactArgs),
+    /// The log that was compacted, to the byte
+    Expand(compact::ExpandArgs),
 }
 
 /// Carries it out.
 pub fn run(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Info { log } => info(log),
-        Command::Cat { log, topic } => cat(log, topic.as_deref()),
+        Command::Cat { log, topic, window } => cat(log, topic.as_deref(), window),
+        Command::Summary { log, window } => summary(log, window),
+        Command::Trim(args) => trim::run(args),
+        Command::Compact(args) => compact::compact(args),
+        Command::Expand(args) => compact::expand(args),
     }
 }
 
 fn info(log: &Path) -> Result<ExitCode> {
-    let mut reader = FlightReader::open(log).with_context(|| log.display().to_string())?;
+    let mut reader = replay::open(log).with_context(|| log.display().to_string())?;
     say!("{}", log.display());
     for (key, value) in &reader.identity.0 {
         say!("  {key:<16} {value}");
@@ -87,10 +110,22 @@ fn info(log: &Path) -> Result<ExitCode> {
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
 }
 
-fn cat(log: &Path, only: Option<&str>) -> Result<ExitCode> {
+fn summary(log: &Path, window: &WindowArgs) -> Result<ExitCode> {
+    let window = window.of(log)?;
+    let summary = replay::summary(log, &window).with_context(|| log.display().to_string())?;
+    say!("{}: {summary}", log.display());
+    Ok(if summary.exact { ExitCode::SUCCESS } else { ExitCode::from(report::DIVERGED) })
+}
+
+fn cat(log: &Path, only: Option<&str>, window: &WindowArgs) -> Result<ExitCode> {
     // Whoever closes the pipe early, as `head` does, has seen enough.
     let mut out = BufWriter::new(io::stdout().lock());
-    let mut messages = Messages::open(log).with_context(|| log.display().to_string())?;
+    let window = window.of(log)?;
+    let mut messages = replay::messages(log).with_context(|| log.display().to_string())?;
+    if window != replay::Window::default() {
+        let (from, until) = (window.from_tick.unwrap_or(0), window.until_tick.unwrap_or(u64::MAX));
+        messages.limit(from, until).with_context(|| log.display().to_string())?;
+    }
     for message in &mut messages {
         if only.is_some_and(|only| only != message.topic) {
             continue;

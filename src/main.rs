@@ -28,6 +28,8 @@ mod report;
 mod trim;
 mod verify;
 mod view;
+mod whatif;
+mod window;
 
 use std::process::ExitCode;
 
@@ -52,6 +54,9 @@ enum Command {
     Verify(verify::Args),
     /// Show a log in the rerun viewer, or save it for the viewer.
     View(view::Args),
+    /// Refly the recorded inputs with changed parameters, or another aircraft, from a moment on, into a
+    /// new log.
+    Whatif(whatif::Args),
     /// What is in a log.
     #[command(subcommand)]
     Log(log::Command),
@@ -69,6 +74,7 @@ fn main() -> ExitCode {
         Command::Replay(args) => replay_live::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::View(args) => view::run(&args),
+        Command::Whatif(args) => whatif::run(&args),
         Command::Log(command) => log::run(&command),
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),

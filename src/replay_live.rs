@@ -11,6 +11,7 @@ use recorder::Pace;
 use replay::Reflight;
 
 use crate::report;
+use crate::window::WindowArgs;
 
 /// What to refly, and where to show it.
 #[derive(clap::Args)]
@@ -23,6 +24,8 @@ pub struct Args {
     /// Times real time
     #[arg(long, default_value_t = 1.0)]
     speed: f64,
+    #[command(flatten)]
+    window: WindowArgs,
 }
 
 /// Reflies the log and sends every tick's picture.
@@ -30,7 +33,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
-    let mut flight = Reflight::open(&args.log).with_context(|| args.log.display().to_string())?;
+    let window = args.window.of(&args.log)?;
+    let mut flight =
+        Reflight::within(&args.log, &window).with_context(|| args.log.display().to_string())?;
+    let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);
     let mut ticks = 0;
@@ -44,14 +50,15 @@ pub fn run(args: &Args) -> Result<ExitCode> {
             first_difference = Some(ticks);
             complain!(
                 "tiltrotor: from {:.3} s on this is not the recorded flight; `tiltrotor verify` says more",
-                ticks as f64 * STEP_S
+                (start + ticks) as f64 * STEP_S
             );
         }
     }
     say!(
-        "{}: {:.1} s reflown at {} times real time, {} packets sent to {}, {} not",
+        "{}: {:.1} s reflown from {:.3} s on at {} times real time, {} packets sent to {}, {} not",
         args.log.display(),
         ticks as f64 * STEP_S,
+        start as f64 * STEP_S,
         args.speed,
         link.sent(),
         link.destination(),

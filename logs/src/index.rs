@@ -91,24 +91,25 @@ pub fn closing(path: &Path) -> Option<(u64, u64)> {
 /// When the log cannot be read; [`LogError::NoMarker`] with those that there are.
 pub fn marker(path: &Path, number: u64) -> Result<u64, LogError> {
     let mut found = Vec::new();
-    let mut look = |header: u16, events: Option<u16>, data: &[u8]| -> Result<Option<u64>, LogError> {
-        if Some(header) != events {
-            return Ok(None);
-        }
-        let event: EventRecord = cdr::decode(data)?;
-        if event.kind != Happening::Marker as u64 {
-            return Ok(None);
-        }
-        found.push((event.value, event.tick));
-        Ok((event.value == number).then_some(event.tick))
-    };
+    let mut look =
+        |header: u16, events: Option<u16>, data: &[u8]| -> Result<Option<u64>, LogError> {
+            if Some(header) != events {
+                return Ok(None);
+            }
+            let event: EventRecord = cdr::decode(data)?;
+            if event.kind != Happening::Marker as u64 {
+                return Ok(None);
+            }
+            found.push((event.value, event.tick));
+            Ok((event.value == number).then_some(event.tick))
+        };
     let mut raw = RawReader::open(path)?;
     let mut events = None;
     let index = Index::read(path);
     // Without an index, the whole log; with it, the first chunk for the channels, then those with
     // events.
-    let mut waiting = index
-        .map(|index| index.chunks.into_iter().skip(1).filter(|chunk| chunk.has_events));
+    let mut waiting =
+        index.map(|index| index.chunks.into_iter().skip(1).filter(|chunk| chunk.has_events));
     loop {
         match raw.next() {
             Ok(Some(Raw::Channel(channel))) if channel.topic == EVENTS => events = Some(channel.id),

@@ -19,8 +19,8 @@ use crate::fields::{Field, fields};
 use crate::index::Index;
 use crate::raw::Raw;
 use crate::records::{
-    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
-    TIMING, TimingRecord, first_digest,
+    Chain, EVENTS, EventRecord, FORMAT_VERSION, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE,
+    StateRecord, TIMING, TimingRecord, first_digest,
 };
 use crate::recover::Recovery;
 use crate::seal::{RollCall, Stamp, is_whole};
@@ -129,6 +129,20 @@ impl FlightReader {
         Self::of(Records::new(source))
     }
 
+    /// Opens a log, compacted or not, of whatever version of the flight model. The states of a
+    /// compacted one are then not those that were flown, but where [`FlightReader::is_recorded`].
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    pub fn open_across(path: &Path, open: Open) -> Result<Self, LogError> {
+        let mut records = Records::open(path, Some(open))?;
+        records.across = true;
+        if let Some(expander) = &mut records.expander {
+            expander.across = true;
+        }
+        Self::of(records)
+    }
+
     fn of(mut records: Records) -> Result<Self, LogError> {
         let mut robot_description = String::new();
         let mut setup = Setup::default();
@@ -168,7 +182,9 @@ impl FlightReader {
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
                         return Err(no_flight(&format!("{missing} is not in it")));
                     }
-                    refuse_other_versions(&identity)?;
+                    if !records.across || identity.get(Identity::FORMAT) != FORMAT_VERSION {
+                        refuse_other_versions(&identity)?;
+                    }
                     let first: StateRecord = cdr::decode(&data)?;
                     let digest = first_digest(&setup.files(), &cdr::encode(&first.state)?);
                     return Ok(Self {
@@ -276,7 +292,10 @@ impl FlightReader {
             return Ok(Ending::Truncated);
         }
         // The chain says that the flight is what was flown: it is something beside it.
-        if !self.records.sought && closing.messages != self.records.roll_call.digest() {
+        // What a compacted log says is guarded by a hash of its own, and what it does not say is made
+        // again.
+        let looked_at = !self.records.sought && !self.is_compacted();
+        if looked_at && closing.messages != self.records.roll_call.digest() {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, or the order \
                  or time of any) is not as written, though every checksum is right: a tool that \
@@ -360,7 +379,7 @@ impl FlightReader {
     }
 
     /// The last tick as the writer closed the log, or as far as it was read.
-    fn last_tick(&self) -> u64 {
+    pub fn last_tick(&self) -> u64 {
         self.closing.map_or(self.last.0, |closing| closing.last.0.max(self.last.0))
     }
 
@@ -577,6 +596,8 @@ struct Records {
     expander: Option<Box<Expander>>,
     /// Reading went on somewhere else in the file.
     sought: bool,
+    /// Logs of another version of the flight model are read, too.
+    across: bool,
     /// What is no damage: a log that is not for this program.
     refused: Option<LogError>,
 }
@@ -632,6 +653,7 @@ impl Records {
             ending: Ending::Closed,
             expander: None,
             sought: false,
+            across: false,
             refused: None,
         }
     }
@@ -743,8 +765,9 @@ impl Records {
                         Record::Channel(channel) => self.meet(channel),
                         Record::Message { header, data } => {
                             let Some(topic) = self.topics.get(&header.channel_id) else {
-                                self.ending =
-                                    Ending::Damaged("a message on a channel that is not there".into());
+                                self.ending = Ending::Damaged(
+                                    "a message on a channel that is not there".into(),
+                                );
                                 return Ok(None);
                             };
                             let stamp = Stamp {
@@ -799,7 +822,9 @@ fn attachment_fits(record: &[u8]) -> bool {
         let Some(length) = record.get(at..).and_then(|rest| rest.first_chunk()) else {
             return false;
         };
-        at = at.saturating_add(size_of::<u32>()).saturating_add(u32::from_le_bytes(*length) as usize);
+        at = at
+            .saturating_add(size_of::<u32>())
+            .saturating_add(u32::from_le_bytes(*length) as usize);
     }
     at.saturating_add(DATA_LENGTH + CRC) <= record.len()
 }

@@ -4,8 +4,8 @@
 //! called `tf#/`, which is where rerun looks.
 
 use engine::frames::{Attitude, Body, Ned, Structural, Vec3};
-use engine::{Aircraft, Outputs};
 use engine::math::{FRAC_PI_2, PI, cos, sin};
+use engine::{Aircraft, Outputs};
 use serde::Serialize;
 
 use crate::records::OUTPUTS;

@@ -111,7 +111,9 @@ impl FlightWriter {
         force: bool,
     ) -> Result<Self, LogError> {
         // What cannot be read back is not written.
-        if let Some((name, text)) = setup.files().iter().find(|(_, text)| text.len() > TEXT_BYTES_MAX) {
+        if let Some((name, text)) =
+            setup.files().iter().find(|(_, text)| text.len() > TEXT_BYTES_MAX)
+        {
             let (bytes, most) = (text.len(), TEXT_BYTES_MAX);
             return Err(LogError::Encode(format!("{name}: {bytes} bytes, at most {most} fit")));
         }
@@ -338,7 +340,11 @@ impl FlightWriter {
         let log_time_ns = time_ns(tick);
         // The sequence wraps after half a year of flight.
         let sequence = tick as u32;
-        self.stamped(channel, Stamp { sequence, log_time_ns, publish_time_ns: log_time_ns }, message)
+        self.stamped(
+            channel,
+            Stamp { sequence, log_time_ns, publish_time_ns: log_time_ns },
+            message,
+        )
     }
 
     /// Every message goes through here.

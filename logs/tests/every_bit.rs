@@ -99,7 +99,9 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
         let inputs = Inputs { events: &[event], world: Default::default() };
         state = State { tick: tick + 1, ..step(&aircraft, &state, &inputs).0 };
         writer.state(&state).expect("written");
-        writer.timing(&TimingRecord { tick, step_ns: 9_000, ..Default::default() }).expect("written");
+        writer
+            .timing(&TimingRecord { tick, step_ns: 9_000, ..Default::default() })
+            .expect("written");
         writer.happened(tick, Happening::Marker, 1, Level::Info, "marker 1").expect("written");
         let outputs = Outputs { tick: 50 * tick, ..Default::default() };
         writer.view(&outputs, state.plant.attitude).expect("written");
@@ -231,7 +233,10 @@ fn a_log_cut_at_any_byte_is_exact_up_to_there_or_refused() {
     for cut in 0..log.len() {
         match read(log[..cut].to_vec()) {
             Seen::Exact(ticks, Ending::Truncated) => {
-                assert!(ticks >= ticks_before, "cut at {cut}: {ticks} ticks, {ticks_before} before");
+                assert!(
+                    ticks >= ticks_before,
+                    "cut at {cut}: {ticks} ticks, {ticks_before} before"
+                );
                 ticks_before = ticks;
             }
             Seen::Refused(why) => assert!(ticks_before == 0 && !why.is_empty(), "cut at {cut}"),

@@ -1,15 +1,21 @@
 //! Rerunning a flight log: bit-exact verification, and the review in the rerun viewer.
 
+mod bless;
 pub mod compare;
 mod divergence;
 pub mod growth;
 mod refly;
+mod rewrite;
 mod stage;
+mod summary;
 mod verify;
 #[cfg(feature = "rerun")]
 pub mod view;
 
+pub use bless::{KEYFRAME_TICKS, Largest, Moved, beside, bless};
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
-pub use refly::{Reflight, Reflown, ReplayError};
+pub use refly::{Reflight, Reflown, ReplayError, Window, flown, messages, open};
+pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
 pub use stage::Stage;
+pub use summary::{At, Gathered, Summary, Touchdown, summary};
 pub use verify::{Options, Outcome, Verdict, verify};

@@ -9,18 +9,20 @@ use logs::{Ending, LogError, Tick, cdr};
 use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
 use crate::growth::WINDOW_TICKS;
-use crate::refly::{Reflight, ReplayError};
+use crate::refly::{Reflight, ReplayError, Window};
 
 /// How to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Ticks that are still reflown after the first difference, to see how it grows.
     pub growth_ticks: u64,
+    /// The part of the log that is reflown.
+    pub window: Window,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { growth_ticks: WINDOW_TICKS }
+        Self { growth_ticks: WINDOW_TICKS, window: Window::default() }
     }
 }
 
@@ -43,6 +45,8 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
+    /// The log is compacted: of most ticks, only the digest was kept.
+    pub compacted: bool,
 }
 
 /// In one word.
@@ -128,7 +132,7 @@ pub fn verify(
     options: &Options,
     mut progress: impl FnMut(u64),
 ) -> Result<Verdict, ReplayError> {
-    let mut flight = Reflight::open(path)?;
+    let mut flight = Reflight::within(path, &options.window)?;
     let mut verdict = Verdict {
         start_tick: flight.state.tick,
         ticks: 0,
@@ -138,6 +142,7 @@ pub fn verify(
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        compacted: flight.reader.is_compacted(),
     };
     let mut last_input = LastInput::new()?;
     let mut watch = Watch::new()?;
@@ -246,9 +251,13 @@ impl fmt::Display for Verdict {
         if self.outcome() == Outcome::Exact {
             writeln!(
                 f,
-                "exact: all {} ticks ({:.1} s), digest {:016x}",
+                "exact: all {} ticks ({:.1} s){}, digest {:016x}",
                 self.ticks,
                 self.ticks as f64 * STEP_S,
+                match self.start_tick {
+                    0 => String::new(),
+                    tick => format!(" from {} on", when(tick)),
+                },
                 self.digest
             )?;
         }
@@ -264,6 +273,12 @@ impl fmt::Display for Verdict {
                 f,
                 "\nthe log was changed after the flight: its aircraft, cockpit map, scenario or \
                  first state is not what it was flown with"
+            )?,
+            Some(tick) if self.compacted => write!(
+                f,
+                "\nat {} the state, which a compacted log does not keep, has not the digest that was \
+                 kept: this program flies otherwise, or the log was changed after the flight",
+                when(tick)
             )?,
             Some(tick) => write!(
                 f,

@@ -29,7 +29,7 @@ pub(crate) struct Expander {
     raw: RawReader,
     open: Open,
     /// Whether a log of another version of the flight model is to be read.
-    across: bool,
+    pub across: bool,
     /// The log's version of the flight model is not ours: nothing is flown again.
     blind: bool,
     flier: Option<Flier>,

@@ -16,7 +16,7 @@ use super::flier::{Flier, VIEWED};
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION, create, define, facts};
 use crate::raw::{Raw, RawReader};
 use crate::records::{HARDWARE, INPUTS, STATE, StateRecord, TIMING, time_ns};
-use crate::setup::{METADATA, Identity};
+use crate::setup::{Identity, METADATA};
 use crate::{LogError, cdr};
 
 /// Compacts a log.
@@ -220,9 +220,9 @@ impl Pack {
                 let body = data.strip_prefix(&cdr::HEADER);
                 let kept = body.is_some_and(|body| {
                     // The first number is the tick, from which the message's times follow.
-                    body.first_chunk::<8>().is_some_and(|tick| {
-                        is_stamped(&header, u64::from_le_bytes(*tick))
-                    }) && self.block.rows[number].push(body)
+                    body.first_chunk::<8>()
+                        .is_some_and(|tick| is_stamped(&header, u64::from_le_bytes(*tick)))
+                        && self.block.rows[number].push(body)
                 });
                 kept.then_some(Op::Row(number as u8))
             }
