@@ -69,12 +69,13 @@ fn info(log: &Path) -> Result<ExitCode> {
     for (name, text) in reader.setup.files() {
         say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
     }
+    let first_tick = reader.initial.tick;
     let (mut ticks, mut events, mut digest) = (0, 0, 0);
     let mut statistics = Statistics::new();
     let disorder = loop {
         match reader.next_tick() {
             Ok(Some(tick)) => {
-                ticks = tick.record.state.tick;
+                ticks = tick.record.state.tick - first_tick;
                 events += tick.events.len();
                 digest = tick.record.digest;
             }
@@ -87,6 +88,12 @@ fn info(log: &Path) -> Result<ExitCode> {
         }
     };
     say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
+    if first_tick > 0 {
+        say!("  {:<16} {:.3} s, tick {first_tick}", "from", first_tick as f64 * STEP_S);
+    }
+    if reader.is_compacted() {
+        say!("  {:<16} yes: most states are flown again while reading", "compacted");
+    }
     say!("  {:<16} {events}", "device events");
     say!("  {:<16} {} late ticks", "overruns", statistics.overruns);
     say!(

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use engine::STEP_S;
 use replay::Window;
 
@@ -60,9 +60,7 @@ impl Moment {
     pub fn tick(self, log: &Path) -> Result<u64> {
         match self {
             Self::Tick(tick) => Ok(tick),
-            Self::Marker(number) => {
-                logs::marker(log, number).with_context(|| log.display().to_string())
-            }
+            Self::Marker(number) => Ok(logs::marker(log, number)?),
         }
     }
 }

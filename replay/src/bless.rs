@@ -132,7 +132,8 @@ pub fn bless(
         models,
         bytes: rewritten.closed.bytes,
     };
-    if write {
+    // What is the same already stays as it is.
+    if write && !(moved.is_same() && moved.models.0 == moved.models.1) {
         moved.bytes = take_place(log, &temporary, compacted).map_err(clean_up)?;
     }
     let _ = fs::remove_file(&temporary);

@@ -22,7 +22,7 @@ const READINGS: [Reading; 11] = [
     ("height", "m", |o| o.height_above_ground_m),
     ("true airspeed", "kt", |o| o.airspeed_mps * KT),
     ("climb", "ft/min", |o| -o.velocity_mps.z * FPM),
-    ("load factor", "1", |o| o.load_factor),
+    ("load factor", "g", |o| o.load_factor),
     ("roll", "deg", |o| o.euler.roll_rad * DEG),
     ("pitch", "deg", |o| o.euler.pitch_rad * DEG),
     ("yaw rate", "deg/s", |o| o.angular_rate_radps.z * DEG),
@@ -148,6 +148,11 @@ fn s(tick: u64) -> f64 {
     tick as f64 * STEP_S
 }
 
+/// To a thousandth, and never as −0.
+fn shown(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}
+
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ticks = self.last.tick - self.first_tick;
@@ -160,9 +165,9 @@ impl fmt::Display for Summary {
             writeln!(
                 f,
                 "{name:<14} {:>10.3} {unit} at {:.3} s to {:.3} {unit} at {:.3} s",
-                least.value,
+                shown(least.value),
                 s(least.tick),
-                greatest.value,
+                shown(greatest.value),
                 s(greatest.tick)
             )?;
         }
@@ -175,11 +180,11 @@ impl fmt::Display for Summary {
             f,
             "at the end     {:.3} m north, {:.3} m east, {:.3} m up; roll {:.3} deg, pitch {:.3} deg, \
              heading {:.3} deg; fuel {:.3} kg",
-            at.position_m.x,
-            at.position_m.y,
-            -at.position_m.z,
-            euler.roll_rad * DEG,
-            euler.pitch_rad * DEG,
+            shown(at.position_m.x),
+            shown(at.position_m.y),
+            shown(-at.position_m.z),
+            shown(euler.roll_rad * DEG),
+            shown(euler.pitch_rad * DEG),
             (euler.heading_rad * DEG).rem_euclid(360.0),
             at.fuel_kg
         )?;

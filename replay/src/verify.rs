@@ -45,6 +45,8 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
+    /// It ends where the window does, not where the log does.
+    pub windowed: bool,
     /// The log is compacted: of most ticks, only the digest was kept.
     pub compacted: bool,
 }
@@ -115,6 +117,9 @@ impl Verdict {
                  cut, and what came after is lost"
                     .into(),
             ),
+            Ending::Closed if self.windowed => {
+                ("window", "there the part ends that was asked for".into())
+            }
             Ending::Closed => ("closed", "the log ends as its writer closed it".into()),
         }
     }
@@ -142,6 +147,7 @@ pub fn verify(
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        windowed: false,
         compacted: flight.reader.is_compacted(),
     };
     let mut last_input = LastInput::new()?;
@@ -206,6 +212,7 @@ pub fn verify(
         watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
     }
     verdict.ending = flight.ending();
+    verdict.windowed = options.window.until_tick.is_some_and(|until| verdict.last_tick() >= until);
     Ok(verdict)
 }
 
