@@ -300,7 +300,7 @@ fn what_if_refuses_what_is_no_number_of_the_aircraft() {
     whatif("fcc.travel.pedals_in=2").says("did you mean fcc.travel.pedal_in");
     whatif("fcc.travel.pedal_in=fast").says("not a value");
     whatif("fcc.travel.pedal_in=\"2\"").says("expected a number");
-    whatif("fcc.travel.pedal_in=-2").says("aircraft.toml:").says("fcc.travel.pedal_in");
+    whatif("rotors.radius_ft=-2").says("aircraft.toml:").says("rotors.radius_ft: expected 1e-6 to");
     whatif("fcc.travel.pedal_in").says("KEY=VALUE");
     whatif("fcc.travel=2").says("table of keys");
     assert!(!out.exists());
