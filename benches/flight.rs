@@ -144,9 +144,9 @@ fn ten_minutes() -> &'static (PathBuf, PathBuf) {
 fn verify_ten_minutes(bencher: Bencher, form: &str) {
     let (whole, compact) = ten_minutes();
     let log = if form == "whole" { whole } else { compact };
-    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| {
-        replay::verify(log, &Options::default(), |_| ()).expect("a log").exact
-    });
+    bencher
+        .counter(ItemsCount::new(LONG_TICKS))
+        .bench_local(|| replay::verify(log, &Options::default(), |_| ()).expect("a log").exact);
 }
 
 /// Ten minutes compacted.

@@ -26,6 +26,8 @@ pub(crate) struct Place {
 /// The index at the end of a log.
 pub(crate) struct Index {
     pub chunks: Vec<Place>,
+    /// Channels: a tool may have defined some of them in chunks that are passed by.
+    pub topics: Vec<(u16, String)>,
     closing: Option<u64>,
 }
 
@@ -62,7 +64,8 @@ impl Index {
             .collect();
         chunks.sort_by_key(|chunk| chunk.offset);
         let closing = summary.metadata_indexes.iter().find(|m| m.name == CLOSING).map(|m| m.offset);
-        Some(Self { chunks, closing })
+        let topics = summary.channels.values().map(|c| (c.id, c.topic.clone())).collect();
+        Some(Self { chunks, topics, closing })
     }
 
     /// The first chunk that reaches the tick, by its place in the list.

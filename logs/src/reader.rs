@@ -629,6 +629,9 @@ impl Records {
         let Some(path) = &self.path else { return Ok(()) };
         let Some(index) = Index::read(path) else { return Ok(()) };
         let Some(place) = index.chunk_of(tick).filter(|&place| place > 0) else { return Ok(()) };
+        for (id, topic) in index.topics {
+            self.topics.entry(id).or_insert(topic);
+        }
         let mut file = File::open(path).map_err(LogError::Open)?;
         file.seek(SeekFrom::Start(index.chunks[place].offset))?;
         self.source = BufReader::with_capacity(BUFFER_BYTES, Box::new(file));

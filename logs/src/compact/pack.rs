@@ -64,8 +64,12 @@ pub fn compact(
             (Some(Raw::ChunkEnd), Some(pack)) => pack.block.ops.push(Op::ChunkEnd),
             (Some(Raw::ChunkEnd), None) => {}
             (Some(Raw::Metadata(record)), Some(_)) => tail.push(record),
+            // Our writer defines all channels first, other programs when they need them.
+            (Some(raw @ (Raw::Schema { .. } | Raw::Channel(_))), Some(pack)) => {
+                pack.define(&raw)?
+            }
             (Some(_), Some(_)) => {
-                return Err(LogError::Order("channels or files after the first message".into()));
+                return Err(LogError::Order("files after the first message".into()));
             }
             (Some(raw), None) => head.take(raw)?,
         }
@@ -177,7 +181,6 @@ impl Pack {
         let schema = b"uint8[] data\n";
         to.add_schema_with_id(ID, "tiltrotor/msg/CompactBlock", "ros2msg", schema)?;
         to.add_channel_with_id(ID, ID, TOPIC, "cdr", &BTreeMap::new())?;
-        let mut topics = BTreeMap::new();
         let mut pack = Self {
             to,
             hash: Xxh3Default::new(),
@@ -191,19 +194,24 @@ impl Pack {
         };
         pack.write_bytes(0, &head.files())?;
         for raw in &head.definitions {
-            match raw {
-                Raw::Schema { id, name, encoding, data } => {
-                    pack.to.add_schema_with_id(*id, name, encoding, data)?;
-                }
-                Raw::Channel(channel) => {
-                    define(&mut pack.to, channel)?;
-                    only(&mut topics, channel)?;
-                }
-                _ => {}
-            }
+            pack.define(raw)?;
         }
-        pack.topics = topics;
         Ok(pack)
+    }
+
+    /// Takes over a message type or a channel.
+    fn define(&mut self, raw: &Raw) -> Result<(), LogError> {
+        match raw {
+            Raw::Schema { id, name, encoding, data } => {
+                self.to.add_schema_with_id(*id, name, encoding, data)?;
+            }
+            Raw::Channel(channel) => {
+                define(&mut self.to, channel)?;
+                only(&mut self.topics, channel)?;
+            }
+            _ => {}
+        }
+        Ok(())
     }
 
     fn message(&mut self, header: MessageHeader, data: Vec<u8>) -> Result<(), LogError> {
