@@ -68,6 +68,7 @@ fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
         real_time: false,
         ticks_max: Some(ticks),
         link: None,
+        self_check: false,
     };
     fly(flight, &Progress::default()).expect("a flight").log.expect("a whole log");
     (out, initial)
@@ -96,7 +97,7 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let identity = Identity::new();
     let writer = FlightWriter::create(&out, &setup(), &identity, &aircraft, "", &state, true)
         .expect("a log");
-    let mut recording = Recording::start(writer, &state);
+    let mut recording = Recording::start(writer, &state, std::sync::mpsc::channel().1);
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);
@@ -104,7 +105,7 @@ fn hand_over_of_a_tick(bencher: Bencher) {
         recording.put(Item::State(State { tick: tick + 1, ..state }));
         recording.put(Item::Timing(TimingRecord { tick, ..TimingRecord::default() }));
     });
-    recording.finish().expect("a whole log");
+    recording.finish().0.expect("a whole log");
     let _ = fs::remove_file(out);
 }
 

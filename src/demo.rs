@@ -18,6 +18,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common)?;
+    plan.flight.self_check = true;
     #[cfg(feature = "rerun")]
     let saved = out.with_extension("rrd");
     #[cfg(feature = "rerun")]
@@ -27,8 +28,15 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP)?;
     plan.set_pilot("demo", &map)?;
     plan.set_map(map)?;
-    say!("Vertical take-off, climb, hover turn, dash to 60 kt, landing: flown by a pilot model");
-    say!("whose stick, lever and pedals take the path that hardware takes. Ctrl-C lands.");
+    say!(
+        "Vertical take-off, conversion, left turn, reconversion, landing where it began: flown by a"
+    );
+    say!("pilot model whose stick, lever, pedals and switches take the path that hardware takes.");
+    if args.common.fast {
+        say!("A little over three minutes of flight, as fast as it goes. Ctrl-C ends it.");
+    } else {
+        say!("It takes a little over three minutes; `--fast` flies it in seconds. Ctrl-C ends it.");
+    }
     if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
         say!("Live in FlightGear at {}.", link.destination());
     }

@@ -12,7 +12,7 @@ use engine::cockpit;
 use flightgear::Link;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
-use recorder::pilots::{PILOTS, Pilot};
+use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::{Flight, Landing, Progress, fly};
 
@@ -24,7 +24,7 @@ pub struct Args {
     /// Fly with the sticks that are plugged in
     #[arg(long)]
     stick: bool,
-    /// Let a pilot model fly: hover, demo
+    /// Let a pilot model fly: hover, demo, takeoff, convert, turn, reconvert, land
     #[arg(long, value_name = "NAME")]
     pilot: Option<String>,
     /// Play the timed events of a file
@@ -40,6 +40,9 @@ pub struct Args {
     /// End the flight after this long, s
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
+    /// Refly each second on a spare thread while flying, and warn when a bit is not the same
+    #[arg(long)]
+    self_check: bool,
 }
 
 /// The steady flight in which a flight begins.
@@ -98,6 +101,7 @@ pub struct Common {
 /// Flies, and sums up.
 pub fn run(args: &Args) -> Result<ExitCode> {
     let mut plan = Plan::new(&args.common)?;
+    plan.flight.self_check = args.self_check;
     if let Some(seconds) = args.duration {
         let ticks = (seconds / STEP_S).round();
         if !(ticks.is_finite() && ticks >= 1.0) {
@@ -128,8 +132,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         plan.flight.hands.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
     }
     plan.set_map(map)?;
-    if args.duration.is_none() && args.common.fast && args.pilot.as_deref() == Some("hover") {
-        bail!("the hover pilot never lands: give --duration SECONDS with --fast");
+    if let (Some(name), None, true) = (&args.pilot, args.duration, args.common.fast)
+        && !pilots::lands(name)
+    {
+        bail!("the {name} pilot never lands: give --duration SECONDS with --fast");
     }
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;
@@ -185,6 +191,7 @@ impl Plan {
                 real_time: !common.fast,
                 ticks_max: None,
                 link,
+                self_check: false,
             },
         })
     }
@@ -255,6 +262,7 @@ impl Plan {
             let flight = self.flight;
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told_of_log = false;
+            let mut told_of_mismatch = false;
             while !flying.is_finished() {
                 thread::sleep(Duration::from_millis(100));
                 let now = progress.now();
@@ -272,6 +280,15 @@ impl Plan {
                     phase.unwrap_or(&"")
                 ));
                 bar.tick();
+                if now.mismatches > 0 && !told_of_mismatch {
+                    told_of_mismatch = true;
+                    bar.suspend(|| {
+                        complain!(
+                            "WARNING: the flight is not the same when reflown: do not trust this \
+                             machine, or report this; the log says where"
+                        );
+                    });
+                }
                 if now.log_failed && !told_of_log {
                     told_of_log = true;
                     bar.suspend(|| {

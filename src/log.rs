@@ -46,6 +46,17 @@ pub enum Command {
     Compact(compact::CompactArgs),
     /// The log that was compacted, to the byte
     Expand(compact::ExpandArgs),
+    /// A proper log from a broken one: every tick up to the first bad one
+    Recover {
+        /// The broken log
+        broken: PathBuf,
+        /// The log to be written
+        #[arg(long, value_name = "FILE")]
+        out: PathBuf,
+        /// Overwrite an existing log
+        #[arg(long)]
+        force: bool,
+    },
 }
 
 /// Carries it out.
@@ -57,6 +68,7 @@ pub fn run(command: &Command) -> Result<ExitCode> {
         Command::Trim(args) => trim::run(args),
         Command::Compact(args) => compact::compact(args),
         Command::Expand(args) => compact::expand(args),
+        Command::Recover { broken, out, force } => recover(broken, out, *force),
     }
 }
 
@@ -111,6 +123,9 @@ fn info(log: &Path) -> Result<ExitCode> {
         (Some(error), _) => format!("unusable from here: {error}"),
         (None, Some(Ending::Closed)) => "closed".into(),
         (None, Some(Ending::Damaged(why))) => format!("damaged from here: {why}"),
+        (None, Some(Ending::Truncated)) if reader.recovered_from().is_some() => {
+            "recovered: the flight went on, this log does not".into()
+        }
         (None, _) => "not closed: killed, or cut".into(),
     };
     say!("  {:<16} {ending}", "end of the log");
@@ -122,6 +137,30 @@ fn summary(log: &Path, window: &WindowArgs) -> Result<ExitCode> {
     let summary = replay::summary(log, &window).with_context(|| log.display().to_string())?;
     say!("{}: {summary}", log.display());
     Ok(if summary.exact { ExitCode::SUCCESS } else { ExitCode::from(report::DIVERGED) })
+}
+
+fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {
+    let done = logs::recover(broken, out, force).with_context(|| broken.display().to_string())?;
+    say!(
+        "{}: kept {} ticks ({:.3} s) of {}, each proven by its checksum and digest",
+        out.display(),
+        done.tick,
+        done.tick as f64 * STEP_S,
+        broken.display()
+    );
+    say!("lost       all after tick {}: {}", done.tick, done.reason);
+    if done.ticks_distrusted > 0 {
+        say!("           {} ticks after it can be read, but not trusted", done.ticks_distrusted);
+    }
+    if done.messages_foreign > 0 {
+        say!("           {} messages on channels of others", done.messages_foreign);
+    }
+    say!(
+        "size       {:.1} kB of {:.1} kB",
+        done.bytes_written as f64 * 1e-3,
+        done.bytes_read as f64 * 1e-3
+    );
+    Ok(ExitCode::SUCCESS)
 }
 
 fn cat(log: &Path, only: Option<&str>, window: &WindowArgs) -> Result<ExitCode> {

@@ -18,6 +18,7 @@ macro_rules! complain {
 
 mod condition;
 mod demo;
+mod diff;
 mod fly;
 mod identity;
 mod json;
@@ -49,9 +50,11 @@ enum Command {
     Fly(fly::Args),
     /// Refly a log, live in FlightGear.
     Replay(replay_live::Args),
-    /// Does a log refly to the same bits? Exit 0 exact, 1 diverged, 2 not a usable log, 3 exact but
-    /// never closed.
+    /// Do logs refly to the same bits? Exit 0 exact, 1 diverged or altered, 2 not a usable log, 3 exact
+    /// but never closed; of several logs the gravest: 2, then 1, then 3.
     Verify(verify::Args),
+    /// Two logs, field by field, as they were recorded. Exit 0 the same flight, 1 not, 2 not usable.
+    Diff(diff::Args),
     /// Show a log in the rerun viewer, or save it for the viewer.
     View(view::Args),
     /// Refly the recorded inputs with changed parameters, or another aircraft, from a moment on, into a
@@ -73,6 +76,7 @@ fn main() -> ExitCode {
         Command::Fly(args) => fly::run(&args),
         Command::Replay(args) => replay_live::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Diff(args) => diff::run(&args),
         Command::View(args) => view::run(&args),
         Command::Whatif(args) => whatif::run(&args),
         Command::Log(command) => log::run(&command),

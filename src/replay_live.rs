@@ -44,7 +44,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     while let Some(reflown) = flight.next_tick()? {
         pace.wait(ticks);
         link.send(&reflown.outputs);
-        flight.reader.timings.clear();
+        flight.reader.forget();
         ticks += 1;
         if !reflown.exact && first_difference.is_none() {
             first_difference = Some(ticks);

@@ -63,6 +63,26 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
         ),
         Err(error) => say!("log        {out} ends before the flight did: {error}"),
     }
+    if landing.delay.times > 0 {
+        say!(
+            "writer     held up {} times, {:.1} s at most; at most {} items waited, none was lost",
+            landing.delay.times,
+            landing.delay.longest.as_secs_f64(),
+            landing.backlog_max
+        );
+    }
+    if let Some(checked) = &landing.checked {
+        say!(
+            "self-check {} of {} ticks reflown in flight, {} mismatches, {} ticks dropped; {:.3} s of \
+             a spare thread",
+            checked.ticks,
+            flown.ticks,
+            checked.mismatches,
+            checked.dropped,
+            checked.busy.as_secs_f64()
+        );
+        line("", &checked.hand_over, "what it cost the loop");
+    }
     for refused in &landing.refused {
         say!("note       {refused}");
     }

@@ -33,7 +33,6 @@ const BOUNDS: &[(&str, f64, f64)] = &[
     ("span_m", SMALLEST, LARGEST),
     ("wake_length_m", SMALLEST, LARGEST),
     ("sidewash_speed_mps_min", SMALLEST, LARGEST),
-    ("immersed_speed_mps_max", SMALLEST, LARGEST),
     ("dynamic_pressure_pa", SMALLEST, LARGEST),
     ("rated_power_w", SMALLEST, LARGEST),
     ("zero_fuel_mass_kg", SMALLEST, LARGEST),

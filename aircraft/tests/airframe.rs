@@ -123,6 +123,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
             mast_tilt_rad: 0.0,
             thrust_axis: axis,
             induced_mps: trim.induced_ftps * FT,
+            rotor_radius_m: xv15.rotors.radius_m,
             pivot_m: xv15.rotors.pivot_m,
             hub_from_cg_m: xv15.rotors.pivot_m.from_cg(motion.cg_m) + axis * (4.667 * FT),
             flap_rad,
@@ -214,10 +215,11 @@ fn val_fuselage_has_the_loads_of_the_trim_printouts() {
 /// At 100 kt neither rotor wake nor rotor lift reaches the wing in the printouts.
 const WING_TOLERANCE: f64 = 0.01;
 
-/// Z and M miss at 40 to 80 kt by the lift that the rotors add there (K_FW, K_RW), whose equation is
-/// not at hand: 200, 297 and 189 lb, which is .37, .36 and .28 of the table's lift. M misses by 1.7 %
-/// at 100 kt, where the printed moment asks for a Cm of −.111 and the table has −.110. At 40 kt the area
-/// law besides takes 35 ft² out of the free stream, where the printout has all of it there.
+/// The printed drag is the table's to .0002 of CD, the printed lift is not: 200, 297 and 189 lb are
+/// missing at 40 to 80 kt. It asks for CL .391 and .718 at −8 and −4° (upright, flaps 40/25), where
+/// Rev. A prints .291 and .518, on a line whose slope its table 4-IX confirms: the printouts were run
+/// with another column. M misses with Z, and by 1.7 % at 100 kt, where the printed moment asks for a Cm
+/// of −.111 and the table has −.110.
 #[test]
 fn val_wing_in_free_stream_has_the_loads_of_the_trim_printouts() {
     let published = [
@@ -231,16 +233,12 @@ fn val_wing_in_free_stream_has_the_loads_of_the_trim_printouts() {
     assert_eq!(missed, known);
 }
 
-/// The printouts have no immersed area from 40 kt on; the area law taken has 17.6 ft² a side at 40 kt.
+/// The printouts have nothing immersed from 40 kt on.
 #[test]
-fn val_the_wake_has_left_the_wing_at_60_kt() {
+fn val_the_wake_has_left_the_wing_at_40_kt() {
     for (load, kt) in all(|loads| loads.immersed_wing).iter().zip([40, 60, 80, 100]) {
-        println!(
-            "immersed {kt} kt: X {:.1} Z {:.1} lb",
-            load.force_n.x / LBF,
-            load.force_n.z / LBF
-        );
-        assert!(kt == 40 || load.force_n.norm() == 0.0);
+        let force = load.force_n.norm();
+        assert!(force <= 0.0, "{kt} kt: {:.1} lb", force / LBF);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Same arguments, same bits; a mirrored flight is the mirrored state; nothing ever breaks.
+//! Same arguments, same bits; a mirrored flight is the mirrored state.
 
 mod flying;
 
@@ -7,18 +7,17 @@ use engine::inputs::{DeviceEvent, World};
 use engine::symmetry::Mirror;
 use engine::{Inputs, State, step};
 use flying::{
-    TICKS_PER_S, aloft, assert_same_bits, calm, parked, step_in_the_mirror, violent_flight, words,
-    xv15,
+    TICKS_PER_S, aloft, assert_same_bits, calm, parked, step_in_the_mirror, violent_flight, xv15,
 };
 
 /// Fewer where nothing is optimised, so that the crate's tests stay within a minute.
-const FLIGHTS: u64 = if cfg!(debug_assertions) { 60 } else { 300 };
+const FLIGHTS: u64 = if cfg!(debug_assertions) { 20 } else { 100 };
 
 #[test]
 fn a_mirrored_flight_is_the_mirrored_state_to_the_bit() {
     let xv15 = xv15();
     let parked = parked(&xv15);
-    for seed in 0..FLIGHTS / 3 {
+    for seed in 0..FLIGHTS {
         violent_flight(&xv15, &parked, seed, 8 * TICKS_PER_S, |state, inputs, next, _| {
             let image = step_in_the_mirror(&xv15, state, inputs);
             let what = format!("seed {seed}, tick {}: the mirrored step", next.tick);
@@ -66,34 +65,6 @@ fn a_flight_resumed_at_any_tick_has_the_bits_of_the_uninterrupted_one() {
         });
         assert_same_bits(&resumed, &log[last].0, &format!("resumed at {from}"));
     }
-}
-
-/// Beyond this nothing here can fly or fall: a vertical dive ends at some 330 m/s.
-const SPEED_MPS_MAX: f64 = 400.0;
-/// A tumble: these hands make one of 6 rad/s.
-const TURN_RADPS_MAX: f64 = 20.0;
-
-#[test]
-fn no_flight_however_violent_breaks_the_numbers() {
-    const NEGATIVE_ZERO: u64 = 1 << 63;
-    let xv15 = xv15();
-    let parked = parked(&xv15);
-    let (mut fastest_mps, mut turn_radps) = (0.0, 0.0);
-    for seed in 1000..1000 + FLIGHTS {
-        violent_flight(&xv15, &parked, seed, 20 * TICKS_PER_S, |_, _, next, outputs| {
-            let at = || format!("seed {seed}, tick {}: {next:#?}", next.tick);
-            assert!(next.is_finite() && next.frozen == 0, "{}", at());
-            assert!(!words(next).contains(&NEGATIVE_ZERO), "{}", at());
-            assert!(outputs.total.force_n.norm().is_finite(), "{}", at());
-            let speed_mps = next.plant.velocity_mps.norm();
-            let radps = next.plant.angular_rate_radps.norm();
-            assert!(speed_mps < SPEED_MPS_MAX && radps < TURN_RADPS_MAX, "{}", at());
-            assert!(next.plant.rotor_speed_radps < 200.0, "{}", at());
-            fastest_mps = engine::math::max(fastest_mps, speed_mps);
-            turn_radps = engine::math::max(turn_radps, radps);
-        });
-    }
-    println!("fastest {fastest_mps:.0} m/s, {turn_radps:.1} rad/s");
 }
 
 #[test]

@@ -12,8 +12,12 @@ const DEG: f64 = PI / 180.0;
 /// OARF: a tip speed of 768 ft/s.
 const OARF_RPM: f64 = 768.0 / 12.5 * 30.0 / PI;
 
+/// The rotor alone, as it is tested.
 fn xv15() -> Params {
-    aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|error| panic!("{error}")).rotors
+    let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|e| panic!("{e}"));
+    let mut alone = xv15.rotors;
+    alone.inflow.recirculation = 0.0;
+    alone
 }
 
 /// CR-2017-219486 Table A-2 (OARF run 15): CT, CP, figure of merit, for CT from .004 to .014.

@@ -95,6 +95,7 @@ fn download(xv15: &Aircraft, detent: usize) -> f64 {
             mast_tilt_rad: 0.0,
             thrust_axis,
             induced_mps: at.out.induced_mps,
+            rotor_radius_m: xv15.rotors.radius_m,
             pivot_m: xv15.rotors.pivot_m,
             hub_from_cg_m: xv15.rotors.hub_from_cg(motion.cg_m, 0.0),
             flap_rad: xv15.fcc.mixer.flap_rad[detent],

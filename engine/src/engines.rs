@@ -2,11 +2,11 @@
 //!
 //! # Equations
 //! ```text
-//! P_available = P_rated·δ·√θ·(1 − k·(θ − 1))                      [E fit to TMX §6]
+//! P_available = P_rated·δ·√θ·(1 − k1·(θ − 1) − k2·(θ − 1)²)      [through TMX §6]
 //! P_wanted = P_available·(f_idle + (1 − f_idle)·f(lever))         [CR536 8a-VI for f]
 //! Ṗ = (P_wanted − P)/τ
 //! J·Ω̇ = (P_L + P_R)/Ω − Q_L − Q_R         each engine's torque within its limit
-//! fuel flow = sfc·P + idle flow
+//! fuel flow = sfc·P + δ·√θ·idle flow               referred flow over referred power
 //! ```
 //! # Signs
 //! Torque of the engines drives, torque of the rotors is needed; both positive.
@@ -36,8 +36,10 @@ pub const TORQUE_NORM_MAX: f64 = 1.3;
 pub struct Params {
     /// Power of one engine at its rotor shaft, take-off rating, sea level standard.
     pub rated_power_w: f64,
-    /// k: loss with temperature beyond √θ.
+    /// k1: loss with temperature beyond √θ.
     pub temperature_loss: f64,
+    /// k2: how it grows with heat, and what cold gains shrinks.
+    pub temperature_loss_growth: f64,
     /// f_idle: part of the available power at the bottom of the lever.
     pub idle_power_norm: f64,
     /// f over lever position, 0..1.
@@ -50,7 +52,7 @@ pub struct Params {
     pub drive_inertia_kg_m2: f64,
     /// Fuel per shaft energy.
     pub fuel_kg_per_j: f64,
-    /// Fuel flow of one running engine that drives nothing.
+    /// Fuel flow of one running engine that drives nothing, at sea level standard.
     pub fuel_idle_kg_per_s: f64,
     /// Residual jet thrust of one engine at rated power.
     pub jet_thrust_n: f64,
@@ -113,13 +115,11 @@ pub struct Rate {
 /// Power, torque, fuel and the rotors' acceleration.
 pub fn engines(params: &Params, state: &Pair<State>, inputs: &Inputs) -> (Rate, Outputs) {
     let theta = inputs.temperature_k / TEMPERATURE_SL_K;
-    let available_w = max(
-        0.0,
-        params.rated_power_w
-            * (inputs.pressure_pa / PRESSURE_SL_PA)
-            * sqrt(theta)
-            * (1.0 - params.temperature_loss * (theta - 1.0)),
-    );
+    let referred = inputs.pressure_pa / PRESSURE_SL_PA * sqrt(theta);
+    let hotter = theta - 1.0;
+    let by_temperature =
+        1.0 - hotter * (params.temperature_loss + params.temperature_loss_growth * hotter);
+    let available_w = max(0.0, params.rated_power_w * referred * by_temperature);
     let lever = params.power_by_lever_norm.at(inputs.lever_norm);
     let wanted_w = available_w * (params.idle_power_norm + (1.0 - params.idle_power_norm) * lever);
     let running = Pair {
@@ -141,7 +141,7 @@ pub fn engines(params: &Params, state: &Pair<State>, inputs: &Inputs) -> (Rate, 
         .zip(*state)
         .map(|(running, engine)| {
             if running {
-                params.fuel_idle_kg_per_s + params.fuel_kg_per_j * engine.power_w
+                referred * params.fuel_idle_kg_per_s + params.fuel_kg_per_j * engine.power_w
             } else {
                 0.0
             }
@@ -180,6 +180,7 @@ mod tests {
         Params {
             rated_power_w: 1e6,
             temperature_loss: 2.9,
+            temperature_loss_growth: 0.0,
             idle_power_norm: 0.1,
             power_by_lever_norm: Table1 { x: vec![0.0, 1.0], y: vec![0.0, 1.0] },
             lag_s: 0.5,

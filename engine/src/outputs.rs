@@ -27,6 +27,10 @@ pub mod validity {
     pub const HULL: u64 = 1 << 6;
     /// A rotor's gimbal is on its stop.
     pub const FLAPPING_STOP: u64 = 1 << 7;
+    /// The rotors turn slower than 0.7 of the helicopter's speed, or faster than their limit of 661 rpm.
+    pub const ROTOR_SPEED: u64 = 1 << 8;
+    /// It turns faster than 3 rad/s: tables of steady flow know nothing of that.
+    pub const TUMBLING: u64 = 1 << 9;
 }
 
 /// Loads on the airframe by component, each about the centre of gravity.

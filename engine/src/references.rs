@@ -12,6 +12,8 @@
 //!   1980. Flown rotor speeds, procedures, ceilings.
 //! - **CR176970**: Jordan, Patterson, Sandlin, *Approximate Determination of the Tilt Rotor Research
 //!   Aircraft Rotor/Wing Download*, 1986. Hover power and download in flight.
+//! - **TM89428**: Tischler, *Frequency-Response Identification of XV-15 Tilt-Rotor Aircraft Dynamics*,
+//!   NASA TM-89428, 1987. Responses of pitch and heave identified in flight, through transcriptions.
 //! - **KH**: Kleinhesselink, *Stability and Control Modeling of Tiltrotor Aircraft*, University of
 //!   Maryland, 2007. A low-order airframe model.
 //! - **TP04**: Acree, Peyran, Johnson, *Rotor Design Options for Improving XV-15 Whirl-Flutter Stability
@@ -26,6 +28,9 @@
 //! - **GESSOW**: Gessow, Myers, *Aerodynamics of the Helicopter*, 1952. Inflow annulus by annulus.
 //! - **LEISHMAN**: Leishman, *Principles of Helicopter Aerodynamics*, 2nd ed. Mean inflow in the vortex
 //!   ring state, a fit to measurements; recalled.
+//! - **TP213477**: Johnson, *Model for Vortex Ring State Influence on Rotor Flight Dynamics*, NASA
+//!   TP-2005-213477, 2005. Where the vortex ring begins to be felt (Vc/vh = -0.2) and where it takes the
+//!   damping of heave away (-0.45); recalled.
 //! - **SNEL**: Snel, Houwink, Bosschers, *Sectional Prediction of Lift Coefficients on Rotating Wind
 //!   Turbine Blades in Stall*, ECN-C-93-052, 1994. Rotational stall delay; recalled.
 //! - **JOHNSON**: Johnson, *Helicopter Theory*, 1980. Gimbal and coning in multiblade coordinates.
@@ -33,6 +38,9 @@
 //!   divergence of a section; recalled.
 //! - **CHEESEMAN**: Cheeseman and Bennett, *The Effect of the Ground on a Helicopter Rotor in Forward
 //!   Flight*, ARC R&M 3021, 1955.
+//! - **HAYDEN**: Hayden, *The Effect of the Ground on Helicopter Hovering Power Required*, 32nd
+//!   Forum of the American Helicopter Society, 1976. Induced power near the ground, a fit to flights
+//!   of several helicopters; recalled as Leishman gives it.
 //! - **STEVENS**: Stevens, Lewis, Johnson, *Aircraft Control and Simulation*, 3rd ed. Rigid-body
 //!   equations with quaternions.
 //!

@@ -139,7 +139,9 @@ impl Start {
         let sag_m = weight_n / (2.0 * gear.main.stiffness_n_per_m + gear.nose.stiffness_n_per_m);
         let height_m = weights.cg_m.z - gear.main.tyre_m.z - sag_m;
         let rotor_speed_radps = aircraft.fcc.governor.rotor_speed_radps[0];
-        let collective_rad = aircraft.fcc.governor.lowest_rad(0.0);
+        let governor = &aircraft.fcc.governor;
+        let collective_rad = governor.lowest_rad(0.0);
+        let correction_rad = collective_rad - governor.feed_forward_rad(0.0, 0.0);
         let mut state = State {
             cockpit: cockpit::State {
                 flap_detent: self.flap_detent.min(cockpit::FLAP_DETENT_LAST),
@@ -151,8 +153,8 @@ impl Start {
             fcc: fcc::State {
                 governor: fcc::governor::State {
                     reference_radps: rotor_speed_radps,
-                    integral_rad: collective_rad,
-                    correction_rad: collective_rad,
+                    integral_rad: correction_rad,
+                    correction_rad,
                 },
                 ..fcc::State::default()
             },

@@ -24,6 +24,13 @@ use crate::{
     rotors, weight_balance,
 };
 
+/// Rotor speeds of the data, rad/s: 0.7 of 589 rpm, below the slowest of an aeroplane, to the limit of
+/// 661 rpm.
+const ROTOR_RADPS_MIN: f64 = 43.0;
+const ROTOR_RADPS_MAX: f64 = 69.3;
+/// Turning faster than this is no flight, rad/s.
+const TUMBLING_RADPS: f64 = 3.0;
+
 /// Advances the aircraft by one tick. Same arguments, same bits.
 pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
     let pilot = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
@@ -286,8 +293,7 @@ impl Blocks {
                 balance,
                 ned_from_body,
                 angular_rate_radps: plant.angular_rate_radps,
-                rotor_momentum_n_m_s: Vec3::zero(),
-                rotor_momentum_rate_n_m: spin_up,
+                spin_up_n_m: spin_up,
             }),
             horizontal_stabilizer: stabilizer_rate,
             engines: engine_rate,
@@ -373,6 +379,11 @@ impl Blocks {
             | flag(validity::HEIGHT, next.plant.origin.height_m - next.plant.position_m.z > 12e3)
             | flag(validity::GEAR_BOTTOMED, bottomed)
             | flag(validity::FROZEN, next.frozen != 0)
+            | flag(
+                validity::ROTOR_SPEED,
+                !(ROTOR_RADPS_MIN..=ROTOR_RADPS_MAX).contains(&next.plant.rotor_speed_radps),
+            )
+            | flag(validity::TUMBLING, next.plant.angular_rate_radps.norm() > TUMBLING_RADPS)
             | flag(validity::HULL, self.height_above_ground_m(next) <= self.hull_height_m)
     }
 }
@@ -458,6 +469,7 @@ fn half_wings(
             mast_tilt_rad,
             thrust_axis,
             induced_mps,
+            rotor_radius_m: aircraft.rotors.radius_m,
             pivot_m: aircraft.rotors.pivot_m,
             hub_from_cg_m: aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad),
             flap_rad: surfaces.flap_rad,

@@ -14,6 +14,8 @@ pub const FOOT_M: f64 = 0.3048;
 pub const POUND_KG: f64 = 0.453_592_37;
 /// Newtons in a pound of force.
 pub const POUND_N: f64 = POUND_KG * engine::GRAVITY_MPS2;
+/// A slug square foot, kg m².
+pub const SLUG_FT2_KG_M2: f64 = POUND_N * FOOT_M;
 /// Metres a second in a knot.
 pub const KNOT_MPS: f64 = 1852.0 / 3600.0;
 /// Radians a second in a revolution a minute.

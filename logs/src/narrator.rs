@@ -119,7 +119,7 @@ const FAILURES: [(u64, &str); 6] = [
     (failures::GOVERNOR, "governor"),
 ];
 
-const VALIDITY: [(u64, &str); 8] = [
+const VALIDITY: [(u64, &str); 10] = [
     (validity::ROTOR_STALL, "rotor stall"),
     (validity::VORTEX_RING, "vortex ring"),
     (validity::SPEED, "speed"),
@@ -128,6 +128,8 @@ const VALIDITY: [(u64, &str); 8] = [
     (validity::FROZEN, "numbers not finite"),
     (validity::HULL, "hull on the ground"),
     (validity::FLAPPING_STOP, "flapping stop"),
+    (validity::ROTOR_SPEED, "rotor speed"),
+    (validity::TUMBLING, "tumbling"),
 ];
 
 /// The names of the set bits, or "nothing".

@@ -418,6 +418,7 @@ impl FlightReader {
     pub fn forget(&mut self) {
         self.timings.clear();
         self.happenings.clear();
+        self.outputs.clear();
         self.remarks.clear();
     }
 

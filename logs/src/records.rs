@@ -95,10 +95,14 @@ pub enum Happening {
     Landed = 8,
     /// A pilot model went on to its next phase; value: its number.
     Phase = 9,
+    /// The flight, reflown while it went on, was not the same; value: the fields that differ.
+    SelfCheck = 10,
+    /// The log's writer was held up; value: how long, ms.
+    WriterHeldUp = 11,
 }
 
 impl Happening {
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 11] = [
         Self::Marker,
         Self::Failures,
         Self::DeviceConnected,
@@ -108,6 +112,8 @@ impl Happening {
         Self::WeightOnWheels,
         Self::Landed,
         Self::Phase,
+        Self::SelfCheck,
+        Self::WriterHeldUp,
     ];
 
     /// The one recorded as `kind`, if it is one.

@@ -1,5 +1,7 @@
 //! The unit of a recorded number, read off its name: the last words of `plant.velocity_mps.x` say m/s.
 
+use std::fmt;
+
 /// Words of a name that are units, and how they are written.
 const UNITS: &[(&str, &str)] = &[
     ("m", "m"),
@@ -53,6 +55,11 @@ pub fn unit_of(path: &str) -> String {
     }
     // A name that only ends like one: `per_m` with nothing before it.
     unit.trim_start_matches(['/', '·']).to_string()
+}
+
+/// A value with its unit behind it, if it has one.
+pub fn with_unit(value: impl fmt::Display, unit: &str) -> String {
+    if unit.is_empty() { value.to_string() } else { format!("{value} {unit}") }
 }
 
 #[cfg(test)]

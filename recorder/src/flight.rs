@@ -3,18 +3,20 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc;
 
 use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
-use engine::{Aircraft, Inputs, Outputs, STEP_NS, step};
+use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, step};
 use flightgear::Link;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{Closed, FlightWriter, Identity, LogError, Setup};
 
 use crate::clock::{Pace, claim_real_time, now_ns, wall_ns};
 use crate::hands::{Hands, Reach};
+use crate::self_check::{Checked, SelfCheck};
 use crate::statistics::Statistics;
-use crate::writer::{Item, Recording};
+use crate::writer::{Delay, Item, Recording};
 
 /// Device events handled in one tick without asking for memory.
 const EVENTS_A_TICK: usize = 1024;
@@ -46,6 +48,12 @@ pub struct Flight {
     pub ticks_max: Option<u64>,
     /// FlightGear.
     pub link: Option<Link>,
+    /// Whether a spare thread reflies what is flown while it is flown.
+    pub self_check: bool,
+    /// Flips a bit of the state after this tick, as failing memory would: there is no such flight
+    /// outside this crate's own tests.
+    #[cfg(test)]
+    pub upset_tick: Option<u64>,
 }
 
 /// Where the flight is, for whoever shows it, written by the loop without waiting.
@@ -58,6 +66,7 @@ pub struct Progress {
     phase: AtomicU64,
     overruns: AtomicU64,
     log_failed: AtomicBool,
+    mismatches: Arc<AtomicU64>,
     /// Set by whoever wants the flight to end.
     pub stop: Arc<AtomicBool>,
 }
@@ -79,6 +88,8 @@ pub struct Snapshot {
     pub overruns: u64,
     /// The log cannot be written any further.
     pub log_failed: bool,
+    /// Seconds of flight that were not the same when reflown in flight.
+    pub mismatches: u64,
 }
 
 impl Progress {
@@ -104,6 +115,7 @@ impl Progress {
             phase: self.phase.load(Ordering::Relaxed),
             overruns: self.overruns.load(Ordering::Relaxed),
             log_failed: self.log_failed.load(Ordering::Relaxed),
+            mismatches: self.mismatches.load(Ordering::Relaxed),
         }
     }
 
@@ -136,6 +148,10 @@ pub struct Landing {
     pub unsent: u64,
     /// Most items that ever waited for the writer.
     pub backlog_max: usize,
+    /// How the writer was held up.
+    pub delay: Delay,
+    /// What the self-check found, if there was one.
+    pub checked: Option<Checked>,
     /// What the system did not grant.
     pub refused: Vec<String>,
     /// Whether someone ended it.
@@ -171,15 +187,15 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
         &state,
         flight.force,
     )?;
-    let mut crew = Crew { hands: flight.hands, world, phase: (0, ""), done: false };
-    let mut recording = Recording::start(writer, &state);
+    let mut crew = Crew::new(flight.hands, world);
+    let (tell, told) = mpsc::channel();
+    let mut recording = Recording::start(writer, &state, told);
+    let found = Arc::clone(&progress.mismatches);
+    let mut self_check =
+        flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
     let refused = if flight.real_time { claim_real_time() } else { Vec::new() };
 
-    let mut outputs = {
-        // The hands see the aircraft as it stands before the first tick.
-        let inputs = Inputs { events: &[], world: World { paused: 1, ..world } };
-        Outputs { tick: 0, ..step(&aircraft, &state, &inputs).1 }
-    };
+    let mut outputs = crew.first_look(&aircraft, &state);
     recording.show(&outputs, state.plant.attitude);
     let mut statistics = Statistics::new();
     let mut events: Vec<DeviceEvent> = Vec::with_capacity(EVENTS_A_TICK);
@@ -196,6 +212,9 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
             pace.wait(tick)
         } else {
             recording.wait_for_room();
+            if let Some(check) = &self_check {
+                check.wait_for_room();
+            }
             now_ns()
         };
         let wall = wall_ns();
@@ -220,6 +239,10 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
         }
         let stepping_ns = now_ns();
         (state, outputs) = step(&aircraft, &state, &Inputs { events: &events, world: crew.world });
+        #[cfg(test)]
+        if flight.upset_tick == Some(state.tick) {
+            state.plant.fuel_kg = f64::from_bits(state.plant.fuel_kg.to_bits() ^ 1);
+        }
         let stepped_ns = now_ns();
         if let Some(link) = &mut flight.link {
             link.send(&outputs);
@@ -227,6 +250,9 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
         let sent_ns = now_ns();
         recording.put(Item::State(state));
         recording.show(&outputs, state.plant.attitude);
+        if let Some(check) = &mut self_check {
+            check.put(&events, crew.world, &state);
+        }
         let handed_ns = now_ns();
 
         let timing = TimingRecord {
@@ -247,31 +273,47 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
     }
     recording.put(Item::Landed(state.tick, if stopped { 2 } else { 0 }));
     let backlog_max = recording.backlog_max;
+    // Before the log is closed: what it finds last is told there, too.
+    let checked = self_check.and_then(SelfCheck::finish);
     let (sent, unsent) = flight.link.as_ref().map_or((0, 0), |link| (link.sent(), link.dropped()));
+    let (log, delay) = recording.finish();
     Ok(Landing {
         statistics,
-        log: recording.finish(),
+        log,
         outputs,
         events: events_taken,
         sent,
         unsent,
         backlog_max,
+        delay,
+        checked,
         refused,
         stopped,
     })
 }
 
 /// All hands, and what they hold on to between ticks.
-struct Crew {
+pub(crate) struct Crew {
     hands: Vec<Box<dyn Hands>>,
-    world: World,
-    phase: (u64, &'static str),
-    done: bool,
+    pub(crate) world: World,
+    pub(crate) phase: (u64, &'static str),
+    pub(crate) done: bool,
 }
 
 impl Crew {
+    /// Hands that have touched nothing yet.
+    pub(crate) fn new(hands: Vec<Box<dyn Hands>>, world: World) -> Self {
+        Self { hands, world, phase: (0, ""), done: false }
+    }
+
+    /// What the hands see before the first tick: the aircraft as it is.
+    pub(crate) fn first_look(&self, aircraft: &Aircraft, state: &State) -> Outputs {
+        let inputs = Inputs { events: &[], world: World { paused: 1, ..self.world } };
+        Outputs { tick: state.tick, ..step(aircraft, state, &inputs).1 }
+    }
+
     /// Lets every hand act; returns the phase if it changed.
-    fn act(
+    pub(crate) fn act(
         &mut self,
         tick: u64,
         seen: &Outputs,
@@ -291,5 +333,79 @@ impl Crew {
             );
         }
         (self.phase.0 != before).then_some(self.phase)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use logs::FlightReader;
+    use logs::records::Happening;
+
+    use super::*;
+
+    /// Two seconds on the ground, with or without an upset; returns the log and what the crew saw.
+    fn fly_two_seconds(name: &str, upset_tick: Option<u64>) -> (PathBuf, Landing, Snapshot) {
+        let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let out = std::env::temp_dir().join(format!("tiltrotor-{name}-{}", std::process::id()));
+        let setup = Setup {
+            aircraft_toml: aircraft::XV15.into(),
+            cockpit_toml: String::new(),
+            scenario_toml: aircraft::DEFAULT_SCENARIO.into(),
+        };
+        let flight = Flight {
+            start: aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap(),
+            aircraft,
+            setup,
+            identity: Identity::new(),
+            robot_description: String::new(),
+            hands: Vec::new(),
+            #[cfg(feature = "sticks")]
+            sticks: None,
+            out: out.clone(),
+            force: true,
+            real_time: false,
+            ticks_max: Some(500),
+            link: None,
+            self_check: true,
+            upset_tick,
+        };
+        let progress = Progress::default();
+        let landing = fly(flight, &progress).unwrap();
+        (out, landing, progress.now())
+    }
+
+    fn self_checks(log: &std::path::Path) -> Vec<(u64, u64, String)> {
+        let mut reader = FlightReader::open(log).unwrap();
+        while reader.next_tick().unwrap().is_some() {}
+        let words = reader.remarks.iter().filter(|remark| remark.words.contains("self-check"));
+        let mut words = words.map(|remark| remark.words.clone());
+        let events = reader.happenings.iter();
+        events
+            .filter(|event| event.kind == Happening::SelfCheck as u64)
+            .map(|event| (event.tick, event.value, words.next().unwrap_or_default()))
+            .collect()
+    }
+
+    #[test]
+    fn an_upset_in_flight_warns_the_crew_and_is_in_the_log_with_tick_and_name() {
+        let (log, landing, seen) = fly_two_seconds("upset", Some(300));
+        assert_eq!(seen.mismatches, 1);
+        assert_eq!(landing.checked.unwrap().mismatches, 1);
+        let told = self_checks(&log);
+        std::fs::remove_file(&log).unwrap();
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert_eq!((told[0].0, told[0].1), (300, 1));
+        assert!(told[0].2.contains("plant.fuel_kg"), "{told:?}");
+    }
+
+    #[test]
+    fn a_flight_without_an_upset_says_nothing_of_it() {
+        let (log, landing, seen) = fly_two_seconds("quiet", None);
+        let checked = landing.checked.unwrap();
+        assert_eq!((checked.ticks, checked.mismatches, checked.dropped), (500, 0, 0));
+        assert_eq!(seen.mismatches, 0);
+        let told = self_checks(&log);
+        std::fs::remove_file(&log).unwrap();
+        assert!(told.is_empty(), "{told:?}");
     }
 }

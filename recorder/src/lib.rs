@@ -8,7 +8,9 @@ mod clock;
 mod flight;
 mod hands;
 pub mod pilots;
+mod rehearsal;
 pub mod script;
+mod self_check;
 pub mod statistics;
 #[cfg(feature = "sticks")]
 pub mod sticks;
@@ -17,3 +19,6 @@ pub mod writer;
 pub use clock::Pace;
 pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};
 pub use hands::{Hands, Reach};
+pub use rehearsal::{Moment, rehearse};
+pub use self_check::{Checked, Mismatch};
+pub use writer::Delay;

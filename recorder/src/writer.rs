@@ -6,6 +6,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Receiver;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -17,6 +18,8 @@ use logs::view::Level;
 use logs::{Closed, FlightWriter, LogError, Narrator};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
+use crate::self_check::Mismatch;
+
 /// Items the ring holds: three a tick, twenty seconds and some.
 const RING_ITEMS: usize = 16_384;
 /// Outputs the ring for viewers holds.
@@ -27,6 +30,18 @@ const VIEW_TICKS: u64 = 5;
 const FLUSH: Duration = Duration::from_millis(100);
 /// How often the thread looks for work.
 const NAP: Duration = Duration::from_millis(4);
+
+/// A writer that needs longer than this for one thing was held up: a disk, a pipe, a busy machine.
+const HELD_UP: Duration = Duration::from_millis(500);
+
+/// How the writer was held up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Delay {
+    /// How often.
+    pub times: u64,
+    /// The longest.
+    pub longest: Duration,
+}
 
 /// What the loop hands over, in order.
 #[derive(Clone, Copy)]
@@ -52,7 +67,7 @@ pub struct Recording {
     ring: Producer<Item>,
     overflow: VecDeque<Item>,
     view: Producer<(Outputs, Attitude)>,
-    thread: Option<JoinHandle<Result<Closed, LogError>>>,
+    thread: Option<JoinHandle<(Result<Closed, LogError>, Delay)>>,
     failed: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
     /// Most items that ever waited.
@@ -60,8 +75,8 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Starts the thread.
-    pub fn start(writer: FlightWriter, initial: &State) -> Self {
+    /// Starts the thread; `mismatches` is what a self-check finds.
+    pub fn start(writer: FlightWriter, initial: &State, mismatches: Receiver<Mismatch>) -> Self {
         let (ring, items) = touched_ring(RING_ITEMS, Item::State(*initial));
         let (view, views) = touched_ring(VIEW_ITEMS, (Outputs::default(), Attitude::default()));
         let failed = Arc::new(AtomicBool::new(false));
@@ -71,6 +86,10 @@ impl Recording {
             items,
             views,
             narrator: Narrator::new(initial),
+            mismatches,
+            tick: initial.tick,
+            delay: Delay::default(),
+            seen: Instant::now(),
             failed: Arc::clone(&failed),
             done: Arc::clone(&done),
             error: None,
@@ -128,11 +147,8 @@ impl Recording {
         self.failed.load(Ordering::Relaxed)
     }
 
-    /// Ends the log.
-    ///
-    /// # Errors
-    /// What stopped the writer.
-    pub fn finish(mut self) -> Result<Closed, LogError> {
+    /// Ends the log: what became of it or what stopped the writer, and how it was held up.
+    pub fn finish(mut self) -> (Result<Closed, LogError>, Delay) {
         while let Some(waiting) = self.overflow.pop_front() {
             let mut item = waiting;
             while let Err(PushError::Full(back)) = self.ring.push(item) {
@@ -141,8 +157,8 @@ impl Recording {
             }
         }
         self.done.store(true, Ordering::Release);
-        let thread = self.thread.take().ok_or_else(writer_died)?;
-        thread.join().map_err(|_| writer_died())?
+        let ended = self.thread.take().and_then(|thread| thread.join().ok());
+        ended.unwrap_or_else(|| (Err(writer_died()), Delay::default()))
     }
 }
 
@@ -164,14 +180,21 @@ struct Scribe {
     items: Consumer<Item>,
     views: Consumer<(Outputs, Attitude)>,
     narrator: Narrator,
+    mismatches: Receiver<Mismatch>,
+    /// Tick of the last state written.
+    tick: u64,
+    delay: Delay,
+    /// When this thread last got somewhere.
+    seen: Instant,
     failed: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
     error: Option<LogError>,
 }
 
 impl Scribe {
-    fn run(mut self) -> Result<Closed, LogError> {
+    fn run(mut self) -> (Result<Closed, LogError>, Delay) {
         let mut flushed = Instant::now();
+        self.seen = flushed;
         loop {
             // Looked at before draining: nothing is put after it is set.
             let last_round = self.done.load(Ordering::Acquire);
@@ -179,6 +202,7 @@ impl Scribe {
             if flushed.elapsed() >= FLUSH {
                 let written = self.writer.as_mut().map_or(Ok(()), FlightWriter::flush);
                 self.keep(written);
+                self.look_at_the_clock();
                 flushed = Instant::now();
             }
             if last_round {
@@ -186,22 +210,60 @@ impl Scribe {
             }
             thread::sleep(NAP);
         }
-        match (self.writer, self.error) {
+        let log = match (self.writer, self.error) {
             (Some(writer), None) => writer.finish(),
             (_, Some(error)) => Err(error),
             (None, None) => Err(writer_died()),
-        }
+        };
+        (log, self.delay)
     }
 
     fn drain(&mut self) {
         while let Ok(item) = self.items.pop() {
             let written = self.write(&item);
             self.keep(written);
+            self.look_at_the_clock();
         }
         while let Ok((outputs, attitude)) = self.views.pop() {
             let written = self.show(&outputs, attitude);
             self.keep(written);
+            self.look_at_the_clock();
         }
+        while let Ok(mismatch) = self.mismatches.try_recv() {
+            let written = self.mismatch(&mismatch);
+            self.keep(written);
+        }
+    }
+
+    /// Notes in the log, and for the landing, when the last thing took too long. Nothing is lost by
+    /// it, but whoever wonders about the log finds it there.
+    fn look_at_the_clock(&mut self) {
+        let took = self.seen.elapsed();
+        self.seen += took;
+        if took < HELD_UP {
+            return;
+        }
+        self.delay.times += 1;
+        self.delay.longest = self.delay.longest.max(took);
+        let waiting = self.items.slots();
+        let Some(writer) = self.writer.as_mut() else { return };
+        let words = format!(
+            "the log's writer was held up for {:.1} s; {waiting} items waited, none was lost",
+            took.as_secs_f64()
+        );
+        let (what, ms) = (Happening::WriterHeldUp, took.as_millis() as u64);
+        let written = writer.happened(self.tick, what, ms, Level::Warn, &words);
+        self.keep(written);
+    }
+
+    fn mismatch(&mut self, mismatch: &Mismatch) -> Result<(), LogError> {
+        let Some(writer) = self.writer.as_mut() else { return Ok(()) };
+        let Mismatch { tick, fields, path } = mismatch;
+        let words = format!(
+            "self-check: tick {tick}, reflown in flight, was not the same: {fields} numbers of the \
+             state, first {path}"
+        );
+        writer.happened(*tick, Happening::SelfCheck, *fields, Level::Error, &words)
     }
 
     fn write(&mut self, item: &Item) -> Result<(), LogError> {
@@ -216,6 +278,7 @@ impl Scribe {
                 self.narrator.inputs(writer, inputs)
             }
             Item::State(state) => {
+                self.tick = state.tick;
                 writer.state(state)?;
                 self.narrator.state(writer, state)
             }

@@ -7,10 +7,11 @@ use engine::cockpit::Params as Cockpit;
 use engine::inputs::{DeviceEvent, EventKind};
 use logs::fields::Value;
 use logs::records::InputsRecord;
+use logs::units::with_unit;
 use logs::{LogError, cdr};
 
 use crate::compare::Names;
-use crate::growth::{Growth, Moment};
+use crate::growth::Growth;
 use crate::stage::Stage;
 
 /// The first difference between the recorded and the reflown flight.
@@ -137,7 +138,6 @@ impl LastInput {
                 .differences(&a, &b)
                 .find(|difference| difference.name.path.starts_with("world."));
             if let Some(difference) = changed {
-                self.event = None;
                 self.changed = Some(InputChange::World {
                     tick: inputs.tick,
                     path: difference.name.path.clone(),
@@ -151,11 +151,18 @@ impl LastInput {
         Ok(())
     }
 
-    /// The last one, in the words of the cockpit map.
+    /// The last one, in the words of the cockpit map; of the same tick the world's, which changes
+    /// less often than a stick.
     pub(crate) fn told(&self, map: &Cockpit) -> Option<InputChange> {
         let device =
             self.event.map(|event| InputChange::Device { event, moves: moves(map, &event) });
-        device.or_else(|| self.changed.clone())
+        match (&self.changed, device) {
+            (Some(world), Some(device)) if device.led_to_tick() > world.led_to_tick() => {
+                Some(device)
+            }
+            (Some(world), _) => Some(world.clone()),
+            (None, device) => device,
+        }
     }
 }
 
@@ -290,10 +297,6 @@ pub(crate) fn when(tick: u64) -> String {
     format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S)
 }
 
-fn with_unit(value: Value, unit: &str) -> String {
-    if unit.is_empty() { value.to_string() } else { format!("{value} {unit}") }
-}
-
 fn apart(recorded: Value, reflown: Value) -> String {
     recorded.ulps_to(reflown).map_or("?".into(), |ulps| ulps.to_string())
 }
@@ -342,7 +345,7 @@ impl fmt::Display for Divergence {
             Some(input) => writeln!(f, "  last input: {input}")?,
         }
         write_single(f, &self.single)?;
-        write_growth(f, &self.growth)
+        write!(f, "{}", self.growth)
     }
 }
 
@@ -354,49 +357,6 @@ fn write_single(f: &mut fmt::Formatter<'_>, single: &SingleSteps) -> fmt::Result
         if first_stages.is_empty() { "" } else { "; first to differ: " },
         counted(first_stages)
     )
-}
-
-/// What is shown of the motion; the rest is in the JSON form.
-const SHOWN: [&str; 5] = [
-    "plant.position_m",
-    "plant.velocity_mps",
-    "plant.attitude",
-    "plant.angular_rate_radps",
-    "plant.rotor_speed_radps",
-];
-
-/// How it grows, as a table: a line a quantity, a column a moment.
-pub(crate) fn write_growth(f: &mut fmt::Formatter<'_>, growth: &Growth) -> fmt::Result {
-    let line = |f: &mut fmt::Formatter<'_>, name: &str, of: &dyn Fn(&Moment) -> String| {
-        write!(f, "\n    {name:<33}")?;
-        growth.moments.iter().try_for_each(|moment| write!(f, " {:>11}", of(moment)))
-    };
-    write!(f, "  growth")?;
-    line(f, "after", &|moment| format!("{} s", moment.after_s))?;
-    line(f, "fields that differ", &|moment| moment.fields.to_string())?;
-    line(f, "most apart, ULP", &|moment| {
-        let farthest = moment.farthest().map_or(0, |group| group.ulps);
-        if farthest < 1_000_000 { farthest.to_string() } else { format!("{:.1e}", farthest as f64) }
-    })?;
-    for group in SHOWN {
-        let unit = logs::units::unit_of(group);
-        let name = if unit.is_empty() { group.to_string() } else { format!("{group}, {unit}") };
-        line(f, &name, &|moment| {
-            let found = moment.groups.iter().find(|known| known.group == group);
-            found.map_or("0".into(), |found| format!("{:.2e}", found.absolute))
-        })?;
-    }
-    match (growth.same_from, growth.doubling_s()) {
-        (Some(tick), _) => write!(f, "\n    the same again from {} on", when(tick)),
-        (None, Some(doubling_s)) => write!(
-            f,
-            "\n    the velocities' difference doubles every {doubling_s:.3} s (fitted up to {})",
-            when(growth.last_tick)
-        ),
-        (None, None) => {
-            write!(f, "\n    no doubling time: it does not grow, or there is too little of it")
-        }
-    }
 }
 
 impl fmt::Display for InputChange {

@@ -1,10 +1,14 @@
 //! How the difference between two flights grows from where it begins.
 
+use std::fmt;
+
 use engine::math::ln;
 use engine::{STEP_S, State};
 use logs::LogError;
+use logs::units::unit_of;
 
 use crate::compare::Names;
+use crate::divergence::when;
 
 /// When it is looked at, in seconds after the first difference.
 pub const MOMENTS_S: [u64; 5] = [0, 1, 2, 5, 10];
@@ -152,6 +156,55 @@ impl Growth {
         }
         let doublings_per_s = over / under;
         (doublings_per_s > 0.0).then(|| 1.0 / doublings_per_s)
+    }
+}
+
+/// What is shown of the motion; the rest is in the JSON form.
+const SHOWN: [&str; 5] = [
+    "plant.position_m",
+    "plant.velocity_mps",
+    "plant.attitude",
+    "plant.angular_rate_radps",
+    "plant.rotor_speed_radps",
+];
+
+/// As a table: a line a quantity, a column a moment.
+impl fmt::Display for Growth {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let line = |f: &mut fmt::Formatter<'_>, name: &str, of: &dyn Fn(&Moment) -> String| {
+            write!(f, "\n    {name:<33}")?;
+            self.moments.iter().try_for_each(|moment| write!(f, " {:>11}", of(moment)))
+        };
+        write!(f, "  growth")?;
+        line(f, "after", &|moment| format!("{} s", moment.after_s))?;
+        line(f, "fields that differ", &|moment| moment.fields.to_string())?;
+        line(f, "most apart, ULP", &|moment| {
+            let farthest = moment.farthest().map_or(0, |group| group.ulps);
+            if farthest < 1_000_000 {
+                farthest.to_string()
+            } else {
+                format!("{:.1e}", farthest as f64)
+            }
+        })?;
+        for group in SHOWN {
+            let unit = unit_of(group);
+            let name = if unit.is_empty() { group.to_string() } else { format!("{group}, {unit}") };
+            line(f, &name, &|moment| {
+                let found = moment.groups.iter().find(|known| known.group == group);
+                found.map_or("0".into(), |found| format!("{:.2e}", found.absolute))
+            })?;
+        }
+        match (self.same_from, self.doubling_s()) {
+            (Some(tick), _) => write!(f, "\n    the same again from {} on", when(tick)),
+            (None, Some(doubling_s)) => write!(
+                f,
+                "\n    the velocities' difference doubles every {doubling_s:.3} s (fitted over {:.1} s)",
+                self.last_tick.saturating_sub(self.first_tick).min(WINDOW_TICKS) as f64 * STEP_S
+            ),
+            (None, None) => {
+                write!(f, "\n    no doubling time: it does not grow, or there is too little of it")
+            }
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod bless;
 pub mod compare;
+mod diff;
 mod divergence;
 pub mod growth;
 mod refly;
@@ -13,6 +14,9 @@ mod verify;
 pub mod view;
 
 pub use bless::{KEYFRAME_TICKS, Largest, Moved, beside, bless};
+pub use diff::{
+    Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
+};
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use refly::{Reflight, Reflown, ReplayError, Window, flown, messages, open};
 pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
-use logs::{Ending, LogError, Tick, cdr};
+use logs::{Ending, Identity, LogError, Recovery, Tick, cdr};
 
 use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
@@ -49,6 +49,8 @@ pub struct Verdict {
     pub windowed: bool,
     /// The log is compacted: of most ticks, only the digest was kept.
     pub compacted: bool,
+    /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
+    pub recovered: Option<String>,
 }
 
 /// In one word.
@@ -149,6 +151,7 @@ pub fn verify(
         digest: 0,
         windowed: false,
         compacted: flight.reader.is_compacted(),
+        recovered: recovered(&flight.reader.identity),
     };
     let mut last_input = LastInput::new()?;
     let mut watch = Watch::new()?;
@@ -204,8 +207,7 @@ pub fn verify(
             watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
         }
         before = recorded.record.state;
-        flight.reader.timings.clear();
-        flight.reader.outputs.clear();
+        flight.reader.forget();
         progress(verdict.ticks);
     }
     if let Some(divergence) = &mut verdict.divergence {
@@ -214,6 +216,12 @@ pub fn verify(
     verdict.ending = flight.ending();
     verdict.windowed = options.window.until_tick.is_some_and(|until| verdict.last_tick() >= until);
     Ok(verdict)
+}
+
+fn recovered(identity: &Identity) -> Option<String> {
+    let parent = identity.0.get(Recovery::PARENT)?;
+    let (tick, reason) = (identity.get(Recovery::TICK), identity.get(Recovery::REASON));
+    Some(format!("it was recovered from {parent} up to tick {tick}, because {reason}"))
 }
 
 /// Single steps from the recorded states.
@@ -272,6 +280,9 @@ impl fmt::Display for Verdict {
         let (exact, last) = (self.exact_tick(), self.last_tick());
         let (_, why) = self.stopped();
         write!(f, "exact up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
+        if let Some(recovered) = &self.recovered {
+            write!(f, "\n{recovered}")?;
+        }
         if let Some(divergence) = &self.divergence {
             write!(f, "\n{divergence}")?;
         }

@@ -3,7 +3,7 @@
 
 use engine::frames::{Attitude, Euler, Vec3};
 use engine::inputs::{DeviceEvent, EventKind, World};
-use engine::math::{PI, cos, sin};
+use engine::math::{FRAC_PI_2, PI, cos, sin};
 use engine::pair::Pair;
 use engine::symmetry::Mirror;
 use engine::{Aircraft, Inputs, Outputs, State, step};
@@ -43,7 +43,9 @@ pub fn aloft(parked: &State, mast_tilt_rad: f64, speed_mps: f64) -> State {
     let inflow_rad = engine::math::atan2(speed_mps * sin(mast_tilt_rad), 0.75 * 3.81 * 61.7);
     let collective_rad = inflow_rad + 9.0 * DEG;
     state.actuators.collective_rad = Pair::both(collective_rad);
-    state.fcc.governor.integral_rad = collective_rad - 5.0 * cos(mast_tilt_rad) * 1.6 * DEG;
+    let from_lever_rad = 5.0 * cos(mast_tilt_rad) * 1.6 * DEG;
+    let from_linkage_rad = (-2.3 + 23.6 * mast_tilt_rad / FRAC_PI_2) * DEG + from_lever_rad;
+    state.fcc.governor.integral_rad = collective_rad - from_linkage_rad;
     state.fcc.governor.correction_rad = state.fcc.governor.integral_rad;
     state.plant.rotors = state.plant.rotors.map(|mut rotor| {
         rotor.inflow.mean_mps = 5.0;
@@ -223,7 +225,6 @@ pub fn in_vacuum(xv15: &mut Aircraft) {
     xv15.rotors.flapping.blade_spring_n_m_per_rad *= 1e-6;
     xv15.rotors.flapping.blade_inertia_kg_m2 *= 1e-6;
     xv15.wing_pylon.area_m2 = 0.0;
-    xv15.wing_pylon.immersed_area_m2_max = 0.0;
     xv15.wing_pylon.interference_m2.y.fill(0.0);
     xv15.wing_pylon.platform_m2 = 0.0;
     xv15.wing_pylon.spinner_m2 = 0.0;

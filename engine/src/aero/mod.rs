@@ -5,6 +5,7 @@ pub mod horizontal_stabilizer;
 pub mod polar;
 pub mod rotor_wake;
 pub mod vertical_stabilizers;
+pub mod wake_footprint;
 pub mod wing_pylon;
 
 use crate::frames::{Body, Load, Structural, Vec3};

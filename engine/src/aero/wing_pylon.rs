@@ -8,7 +8,7 @@
 //!   N = q·S/2·b·((Cnβ + Cnβ2·CL²)·β + Cnp·CL·p̂ + (Cnr2·CL² + Cnr0·CD0)·r̂)
 //!       − q_iw·S/2·b·(K_n0 + K_n·CL·K·Clδa)·δa
 //! immersed: S_ss with the same CL and CD at V + K0·v·n; q_iw = ½ρ(U² + W²) there         [CR536 A-69]
-//! S_ss = S_ssmax·[sin(1.386(π/2 − βm)) + cos(3.114(π/2 − βm))]·(u_max − u)/u_max, 0..S/2      [KH]
+//!   at (X_iW, Y_iW): the middle of what is immersed, c_i/4·cos α ahead of it
 //! pylon:   D = q_iw·D_PYINT(βm)/2 + q_SP·S_PLAT·K_PLAT(β_SP)           at the pivot      [CR536 A-75]
 //! spinner: D = q_SP·(1 + 5.5·sin³α_m)      at the hub, at V + v·n, α_m to the mast       [CR536 A-76]
 //! ```
@@ -18,18 +18,22 @@
 //! # Assumptions
 //! Roll, yaw and sideslip act on the free stream through the published coefficients, so its α and q
 //! are those of the centre of gravity and not the half wing's own: taking both would count the
-//! damping twice. The immersed part sees the half wing's own motion. α is the body's: the tables
-//! contain the incidence. Coefficients of rate and sideslip fade as the flaperons' do, from 8 to 25°
-//! of α; β counts up to 20°. Platform drag comes with the hub's sideways motion only: the
-//! source's trim printouts have none in symmetric flight. The lift that the rotors add to the wing
-//! between hover and 80 kt (K_FW, K_RW) is left out, as its equation is not at hand.
+//! damping twice. The immersed part, as [`wake_footprint`] has it, sees its own motion. The source gives
+//! its force arms of its own, from the trailing edge (X_iW, Y_iW, SL_WTE), not the quarter chord's: a
+//! wing broadside to the wake is a plate, loaded in the middle of its chord; with the flow along the
+//! chord again it is a quarter chord ahead of it, and cos α leads from one to the other. The deflection
+//! α − α_WFS turns the air in the wake too, which the source does not say: as an aeroplane the wing
+//! in the slipstream would else stand at a larger angle than the wing beside it. α is the body's: the tables contain the incidence. Coefficients of rate and sideslip fade as the flaperons'
+//! do, from 8 to 25° of α; β counts up to 20°. Platform drag comes with the hub's sideways motion only:
+//! the source's trim printouts have none in symmetric flight.
 
 use serde::Deserialize;
 
 use super::polar::{Flap, Polar};
+use super::wake_footprint::{self, footprint};
 use super::{Motion, flow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
-use crate::math::{FRAC_PI_2, PI, atan2, clamp, cos, max, ramp, sin, sqrt, square, wrap_angle};
+use crate::math::{PI, atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
 use crate::table::{Table1, Table2};
 
 const DEG: f64 = PI / 180.0;
@@ -88,10 +92,8 @@ pub struct Params {
     pub yawing_by_flaperon_per_rad: Table2,
     /// K_n over mast tilt and flap.
     pub yawing_by_flaperon_and_lift: Table2,
-    /// S_ssmax: immersed area of a half wing in hover.
-    pub immersed_area_m2_max: f64,
-    /// u_max: forward speed at which the wake has left the wing.
-    pub immersed_speed_mps_max: f64,
+    /// SL_WTE: fuselage station of the trailing edge.
+    pub trailing_edge_station_m: f64,
     /// D_PYINT of both pylons over mast tilt.
     pub interference_m2: Table1,
     /// S_PLAT of one pylon.
@@ -121,6 +123,8 @@ pub struct Inputs {
     pub thrust_axis: Vec3<Body>,
     /// v of this side's rotor.
     pub induced_mps: f64,
+    /// R.
+    pub rotor_radius_m: f64,
     /// Conversion pivot, where the pylon's drag acts.
     pub pivot_m: Vec3<Structural>,
     /// Hub.
@@ -176,30 +180,14 @@ impl Params {
     }
 }
 
-/// The part of the half wing in the wake, m².
-pub fn immersed_area(params: &Params, mast_tilt_rad: f64, forward_mps: f64) -> f64 {
-    let upright = FRAC_PI_2 - mast_tilt_rad;
-    let footprint = sin(1.386 * upright) + cos(3.114 * upright);
-    // The printed law gives the whole area again as an aeroplane; the wake has left the wing by then.
-    let leaving = ramp(cos(mast_tilt_rad), 0.0, 0.5);
-    let blown =
-        max(0.0, params.immersed_speed_mps_max - forward_mps.abs()) / params.immersed_speed_mps_max;
-    clamp(params.immersed_area_m2_max * footprint * leaving * blown, 0.0, 0.5 * params.area_m2)
-}
-
 /// Loads of the right half.
 pub fn half_wing(params: &Params, inputs: &Inputs) -> Outputs {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
-    let immersed_m2 = immersed_area(params, inputs.mast_tilt_rad, inputs.motion.airspeed_mps.x);
-    let rho = inputs.motion.density_kg_per_m3;
-    let washed_mps = inputs.motion.velocity_at(arm) + inputs.wake_mps;
-    let washed = Washed {
-        alpha_rad: atan2(washed_mps.z, washed_mps.x),
-        pressure_pa: 0.5 * rho * (square(washed_mps.x) + square(washed_mps.z)),
-    };
+    let footprint = footprint(params, inputs);
+    let washed = Washed::at(inputs, arm);
     Outputs {
-        free_stream: free_stream(params, inputs, arm, immersed_m2, washed.pressure_pa),
-        immersed: immersed(params, inputs, arm, immersed_m2, washed),
+        free_stream: free_stream(params, inputs, arm, footprint.area_m2, washed.pressure_pa),
+        immersed: immersed(params, inputs, &footprint),
         pylon: pylon(params, inputs, washed),
         spinner: spinner(params, inputs),
     }
@@ -211,6 +199,18 @@ struct Washed {
     alpha_rad: f64,
     /// q_iw.
     pressure_pa: f64,
+}
+
+impl Washed {
+    fn at(inputs: &Inputs, arm: Vec3<Body>) -> Self {
+        let velocity = inputs.motion.velocity_at(arm) + inputs.wake_mps;
+        Self {
+            alpha_rad: atan2(velocity.z, velocity.x),
+            pressure_pa: 0.5
+                * inputs.motion.density_kg_per_m3
+                * (square(velocity.x) + square(velocity.z)),
+        }
+    }
 }
 
 fn free_stream(
@@ -226,8 +226,8 @@ fn free_stream(
     let q = 0.5 * rho * square(speed_mps);
     let (tilt, flap) = (inputs.mast_tilt_rad, Flap::new(inputs.flap_rad));
     let alpha = wrap_angle(inputs.alpha_rad);
-    let cl = params.lift.at(tilt, flap, inputs.mach, alpha);
-    let cd = params.drag.at(tilt, flap, inputs.mach, alpha);
+    let cl = params.lift.lift_at(tilt, flap, inputs.mach, alpha);
+    let cd = params.drag.drag_at(tilt, flap, inputs.mach, alpha);
     let cm = params.pitching_moment.at(tilt, inputs.flap_rad);
 
     let half_m2 = 0.5 * params.area_m2;
@@ -272,22 +272,21 @@ fn free_stream(
     load_at(force, arm, pitching_n_m).with_moment(Vec3::new(rolling * lever, 0.0, yawing * lever))
 }
 
-fn immersed(
-    params: &Params,
-    inputs: &Inputs,
-    arm: Vec3<Body>,
-    immersed_m2: f64,
-    washed: Washed,
-) -> Load {
-    if immersed_m2 <= 0.0 {
+fn immersed(params: &Params, inputs: &Inputs, part: &wake_footprint::Footprint) -> Load {
+    if part.area_m2 <= 0.0 {
         return Load::default();
     }
+    let washed = Washed::at(inputs, part.centroid_from_cg_m);
+    let velocity = inputs.motion.airspeed_mps;
+    let deflection_rad = atan2(velocity.z, velocity.x) - inputs.alpha_rad;
+    let alpha = wrap_angle(washed.alpha_rad - deflection_rad);
     let flap = Flap::new(inputs.flap_rad);
-    let cl = params.lift.at(inputs.mast_tilt_rad, flap, inputs.mach, washed.alpha_rad);
-    let cd = params.drag.at(inputs.mast_tilt_rad, flap, inputs.mach, washed.alpha_rad);
-    let pressure_area = washed.pressure_pa * immersed_m2;
-    let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, washed.alpha_rad);
-    load_at(force, arm, 0.0)
+    let cl = params.lift.lift_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
+    let cd = params.drag.drag_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
+    let pressure_area = washed.pressure_pa * part.area_m2;
+    let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, alpha);
+    let ahead_m = 0.25 * part.chord_m * cos(alpha);
+    load_at(force, part.centroid_from_cg_m + Vec3::new(ahead_m, 0.0, 0.0), 0.0)
 }
 
 /// Velocity of the hub through the air, its own rotor's included.

@@ -2,12 +2,19 @@
 //!
 //! # Equations
 //! ```text
-//! e = Ω − Ω_ref        θ = θ_lever + K_P·e + K_I·∫e,  θ_min(βm) ≤ θ ≤ θ_max          [CR536 17 form]
+//! e = Ω − Ω_ref        θ = θ_ff + K_P(βm)·e + K_I(βm)·∫e,  θ_min(βm) ≤ θ ≤ θ_max    [CR536 17 form]
+//! θ_ff = θ_min(βm) + dθ/dXCOL(βm)·XCOL                                                     [CR536 8a-IV]
 //! ```
-//! Gains fall from helicopter to aeroplane, where a degree of collective takes more torque. Ω_ref
-//! moves to a newly selected speed at a fixed rate; speeds other than the helicopter's are granted
-//! only with the nacelles down. θ_min is never below the pitch of least torque: beyond it less pitch
-//! takes more torque, and the governor would work the wrong way.
+//! θ_ff is where the linkage puts the collective: the lever's bottom is the lower limit, which rises by
+//! 23.6° as the masts tilt, about as the inflow does that the blades meet. What is left to the governor
+//! between hover and 120 kt as an aeroplane is a few degrees either way.
+//!
+//! As an aeroplane a degree of collective takes more torque, and the governor alone moves it. As a
+//! helicopter it must be slow: the engines' power comes later than the lever's collective, and what a
+//! quick governor holds of the rotor speed meanwhile it takes of the thrust, which in flight follows
+//! the lever at once [TM89428]. Ω_ref moves to a newly selected speed at a fixed rate; speeds other than the
+//! helicopter's are granted only with the nacelles down. The collective is never below the pitch of
+//! least torque: beyond it less pitch takes more torque, and the governor would work the wrong way.
 //! # Signs
 //! Overspeed positive: it raises the collective.
 
@@ -29,12 +36,10 @@ pub struct Params {
     pub rotor_speed_radps: [f64; RPM_SELECT_LAST as usize + 1],
     /// How fast the reference moves between them.
     pub reference_radps2: f64,
-    /// K_P as a helicopter.
-    pub proportional_rad_per_radps: f64,
-    /// K_I as a helicopter.
-    pub integral_rad_per_rad: f64,
-    /// Gains as an aeroplane over those as a helicopter.
-    pub aeroplane_gain: f64,
+    /// K_P over mast tilt.
+    pub proportional_rad_per_radps: Table1,
+    /// K_I over mast tilt.
+    pub integral_rad_per_rad: Table1,
     /// θ_min at ¾ radius, over mast tilt.
     pub collective_rad_min: Table1,
     /// Pitch of least torque as a helicopter without thrust, at ¾ radius.
@@ -52,15 +57,15 @@ pub struct State {
     pub reference_radps: f64,
     /// K_I·∫e.
     pub integral_rad: f64,
-    /// θ − θ_lever, rate-limited.
+    /// θ − θ_ff, rate-limited.
     pub correction_rad: f64,
 }
 
 /// What the governor reads.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs {
-    /// θ_lever.
-    pub feed_forward_rad: f64,
+    /// What the lever adds to its bottom.
+    pub from_lever_rad: f64,
     /// Selected speed.
     pub rpm_select: u64,
     /// Ω.
@@ -76,17 +81,19 @@ impl Params {
     pub fn lowest_rad(&self, mast_tilt_rad: f64) -> f64 {
         max(self.collective_rad_min.at(mast_tilt_rad), self.least_torque_rad)
     }
+
+    /// θ_ff.
+    pub fn feed_forward_rad(&self, mast_tilt_rad: f64, from_lever_rad: f64) -> f64 {
+        self.collective_rad_min.at(mast_tilt_rad) + from_lever_rad
+    }
 }
 
 /// The state after the tick, and the collective for both rotors, rad at ¾ radius.
 pub fn update(params: &Params, state: &State, inputs: &Inputs) -> (State, f64) {
     let low_rad = params.lowest_rad(inputs.mast_tilt_rad);
+    let feed_forward_rad = params.feed_forward_rad(inputs.mast_tilt_rad, inputs.from_lever_rad);
     let within = |rad: f64| {
-        clamp(
-            rad,
-            low_rad - inputs.feed_forward_rad,
-            params.collective_rad_max - inputs.feed_forward_rad,
-        )
+        clamp(rad, low_rad - feed_forward_rad, params.collective_rad_max - feed_forward_rad)
     };
     let next = if inputs.failed {
         *state
@@ -97,18 +104,16 @@ pub fn update(params: &Params, state: &State, inputs: &Inputs) -> (State, f64) {
         let step_radps = params.reference_radps2 * STEP_S;
         let reference_radps = state.reference_radps
             + clamp(selected_radps - state.reference_radps, -step_radps, step_radps);
-        let tilted = clamp(inputs.mast_tilt_rad / FRAC_PI_2, 0.0, 1.0);
-        let gain = 1.0 + tilted * (params.aeroplane_gain - 1.0);
+        let proportional = params.proportional_rad_per_radps.at(inputs.mast_tilt_rad);
+        let integral = params.integral_rad_per_rad.at(inputs.mast_tilt_rad);
         let error_radps = inputs.rotor_speed_radps - reference_radps;
         // Bounding the integral by what the collective can do keeps it from winding up.
-        let integral_rad =
-            within(state.integral_rad + gain * params.integral_rad_per_rad * error_radps * STEP_S);
-        let wanted_rad =
-            within(integral_rad + gain * params.proportional_rad_per_radps * error_radps);
+        let integral_rad = within(state.integral_rad + integral * error_radps * STEP_S);
+        let wanted_rad = within(integral_rad + proportional * error_radps);
         let step_rad = params.collective_radps_max * STEP_S;
         let correction_rad =
             state.correction_rad + max(-step_rad, min(step_rad, wanted_rad - state.correction_rad));
         State { reference_radps, integral_rad, correction_rad }
     };
-    (next, inputs.feed_forward_rad + within(next.correction_rad))
+    (next, feed_forward_rad + within(next.correction_rad))
 }

@@ -90,7 +90,7 @@ pub fn update(
         &params.governor,
         &state.governor,
         &governor::Inputs {
-            feed_forward_rad: mixer::lever_collective(&params.mixer, sensed.mast_tilt_rad, lever_m),
+            from_lever_rad: mixer::lever_collective(&params.mixer, sensed.mast_tilt_rad, lever_m),
             rpm_select: pilot.rpm_select,
             rotor_speed_radps: sensed.rotor_speed_radps,
             mast_tilt_rad: sensed.mast_tilt_rad,

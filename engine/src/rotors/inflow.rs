@@ -7,12 +7,14 @@
 //! M = diag(128/(75π), 64/(45π), 64/(45π))
 //! L0 = [1/2, 0, −bX; 0, 2(1 + X²), 0; bX, 0, 2(1 − X²)]        b = 15π/64, X = tan(χ/2)
 //! V_T = √(μ² + V_m²)     V = (μ² + (Vc + v0)(Vc + 2v0))/V_T, V_T ≤ V ≤ 2V_T
-//! V_m = |Vc + v0|, but v0·g(Vc/v0) where the rotor descends into its wake        [LEISHMAN]
-//! v(r, ψ) = G·(κ·(v0 + k·(v_r − v̄_r)) + r/R·(vc·cos ψ + vs·sin ψ))
+//! V_m = |Vc + v0|, but v0·g(Vc/v0) where the rotor descends into its wake        [LEISHMAN, TP213477]
+//! v(r, ψ) = G·(κ·(1 + f·s)·(v0 + k·(v_r − v̄_r)) + r/R·(vc·cos ψ + vs·sin ψ))
 //! v_r·(|V| + v_r) = bcΩ·U·cl(r, v_r)/(8π)       annulus by annulus                     [GESSOW]
 //! v̄_r·(|V| + |v̄_r|) = mean over the disc of v_r·(|V| + |v_r|)
 //! k = V_m²/(V_m² + μ²)                              in edgewise flight the shape fades out
-//! G = 1 − (R/4z)²/(1 + (μ/V_m)²)                    ground                          [CHEESEMAN]
+//! s = v0²/(v0² + Vc² + μ²)                           still air: the fountain stands
+//! G = 1 − k·(1 − 1/(0.9926 + 0.0379·(2R/z)²))        ground                             [HAYDEN]
+//! W = 1 − k·(1 − √(D(z/2R)/D(∞)))                    wake at the wing near ground     [CR176970]
 //! ```
 //! # Signs
 //! Down the mast positive; Vc, the hub's speed along the thrust, positive in a climb. Aft of the
@@ -21,8 +23,14 @@
 //! Pitt and Peters' states carry the mean and the first harmonics. How the mean spreads over the
 //! radius follows at once: a blade twisted for the aeroplane loads its root in hover, and annular
 //! momentum theory says by how much. The shape adds nothing to the mean momentum.
-//! Between hover and the windmill brake state, momentum theory has no answer or three; g is the
-//! measured mean. Its shape over Vc/v0 has one root for every thrust: there is no jump.
+//! Where the wakes of both rotors meet over the fuselage they rise, and the rotors breathe them in
+//! again: f, which hover over the wing costs beyond the rotor alone. Any wind blows it away; how
+//! fast, by its share of the velocity, is an assumption.
+//! Hayden's ground is the mean of helicopters in flight; the image of a lone source (Cheeseman and
+//! Bennett) gives half of it. Both fade with the wake's skew, as Cheeseman and Bennett have it. The
+//! ground also spreads the wake before it meets the wing: download falls faster than the inflow.
+//! Between a slow descent and the windmill brake state, momentum theory has no answer or three; g is
+//! the measured mean. Its shape over Vc/v0 has one root for every thrust: there is no jump.
 
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +39,7 @@ use super::elements::{Flow, Induced};
 use super::section::LIFT_SLOPE;
 use crate::STEP_S;
 use crate::math::{PI, clamp, max, min, sqrt, square};
+use crate::table::Table1;
 
 /// Apparent mass of the mean.
 const APPARENT_MASS: f64 = 128.0 / (75.0 * PI);
@@ -47,6 +56,10 @@ const STILL_MPS: f64 = 1e-6;
 pub struct Params {
     /// κ: losses that neither the radial shape nor the harmonics hold (swirl, contraction, tip).
     pub induced_power_factor: f64,
+    /// f: more of it in hover over the wing and beside the other rotor.
+    pub recirculation: f64,
+    /// Download over that far from the ground, over the hub's height in rotor diameters.
+    pub download_near_ground: Table1,
 }
 
 /// Velocities in the disc.
@@ -84,13 +97,31 @@ pub struct Passage {
     pub in_vortex_ring: bool,
 }
 
-/// (−Vc/v0, g): Leishman's fit to the measured mean, v0/vh = 1 − 1.125x − 1.372x² − 1.718x³ −
-/// 0.655x⁴ for −2 < x = Vc/vh < 0, as g = (vh/v0)² over Vc/v0. Ends meet momentum theory.
-const DESCENT: [(f64, f64); 10] = [
+impl Passage {
+    /// k: 1 where the air goes along the mast, 0 where it goes across.
+    fn axial(&self) -> f64 {
+        let along = square(self.through_mps);
+        along / (along + square(self.edgewise_mps) + STILL_MPS)
+    }
+}
+
+/// (−Vc/v0, g): the mean inflow of a descent as g = (vh/v0)² over Vc/v0; x = Vc/vh.
+///
+/// - To x = −0.2 momentum theory, v0/vh = −x/2 + √(x²/4 + 1), here the straight line g = 1 + Vc/v0:
+///   the wake still leaves, and hover is no corner, the rotor damping small motions up and down alike.
+/// - Beyond x = −0.7 Leishman's fit to measurements, v0/vh = 1 − 1.125x − 1.372x² − 1.718x³ − 0.655x⁴
+///   for −2 < x < 0. At hover its slope would be −1.125 against momentum theory's −½: v0 would grow by
+///   more than Vc falls, and a descent that begins would find no damping.
+/// - Between them a smooth step, which takes v0 + Vc to its first minimum near x = −0.45: there the
+///   damping of heave ends, as it does in the flights of helicopters and a tilt-rotor [TP213477].
+const DESCENT: [(f64, f64); 13] = [
     (0.0, 1.0),
-    (0.0909, 0.826),
-    (0.205, 0.672),
-    (0.359, 0.515),
+    (0.181, 0.819),
+    (0.256, 0.729),
+    (0.318, 0.634),
+    (0.369, 0.546),
+    (0.413, 0.473),
+    (0.452, 0.418),
     (0.551, 0.303),
     (0.720, 0.231),
     (0.956, 0.298),
@@ -162,11 +193,26 @@ pub fn advance(
     State { mean_mps, aft_mps: c * vc - s * vs, right_mps: s * vc + c * vs }
 }
 
-/// G.
-pub fn ground(passage: &Passage, height_m: f64, radius_m: f64) -> f64 {
-    let image = min(square(0.25 * radius_m / max(height_m, 0.3 * radius_m)), 0.5);
-    let (across, along) = (square(passage.edgewise_mps), square(passage.through_mps));
-    1.0 - image * along / (along + across + STILL_MPS)
+/// What the ground does.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground {
+    /// G, of the air through the disc.
+    pub disc: f64,
+    /// W, of the wake at the airframe.
+    pub wake: f64,
+}
+
+/// Hayden's fit begins where it saves nothing, and the rotor never comes nearer than its mast.
+const DIAMETERS_OVER_HEIGHT_MAX: f64 = 2.0;
+
+/// What the ground does to a rotor whose hub is that high over it.
+pub fn ground(params: &Params, passage: &Passage, height_m: f64, radius_m: f64) -> Ground {
+    let diameters = 0.5 * height_m / radius_m;
+    let near = min(1.0 / max(diameters, 1e-3), DIAMETERS_OVER_HEIGHT_MAX);
+    let saved = max(1.0 - 1.0 / (0.9926 + 0.0379 * square(near)), 0.0);
+    let axial = passage.axial();
+    let wake = sqrt(max(params.download_near_ground.at(diameters), 0.0));
+    Ground { disc: 1.0 - axial * saved, wake: 1.0 - axial * (1.0 - wake) }
 }
 
 /// What the elements meet.
@@ -199,9 +245,10 @@ pub fn induced(
     }
     let root = sqrt(square(free_mps) + 4.0 * momentum.abs());
     let mean = 2.0 * momentum / (free_mps + root + STILL_MPS);
-    let (across, along) = (square(passage.edgewise_mps), square(passage.through_mps));
-    let axial = along / (along + across + STILL_MPS);
-    let factor = ground * params.induced_power_factor;
+    let axial = passage.axial();
+    let own = square(state.mean_mps);
+    let still = own / (own + square(free_mps) + STILL_MPS);
+    let factor = ground * params.induced_power_factor * (1.0 + params.recirculation * still);
     Induced {
         mean_mps: annular.map(|v| factor * (state.mean_mps + axial * (v - mean))),
         aft_per_s: ground * state.aft_mps / radius_m,

@@ -209,7 +209,7 @@ pub fn rotor(
         right_rad: inputs.cyclic_outboard_rad - coupling * gimbal.aft_rad,
     };
     let passage = inflow::passage(&state.inflow, &flow);
-    let ground = inflow::ground(&passage, inputs.hub_height_m, params.radius_m);
+    let ground = inflow::ground(&params.inflow, &passage, inputs.hub_height_m, params.radius_m);
     let induced = inflow::induced(
         &params.inflow,
         &state.inflow,
@@ -217,14 +217,14 @@ pub fn rotor(
         &flow,
         blade,
         ((sin(inputs.collective_rad), cos(inputs.collective_rad)), params.blade.count),
-        (ground, params.radius_m),
+        (ground.disc, params.radius_m),
     );
     let sums = elements::elements(blade, &flow, &pitch, flap, &induced);
 
     let next = advance(params, state, &hub, &flow, &passage, &gimbal, &sums);
     let outputs = outputs(params, state, inputs, &hub, &gimbal, &sums);
     let outputs = Outputs {
-        induced_mps: ground * state.inflow.mean_mps,
+        induced_mps: ground.wake * state.inflow.mean_mps,
         in_vortex_ring: u64::from(passage.in_vortex_ring),
         ..outputs
     };

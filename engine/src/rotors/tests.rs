@@ -42,7 +42,11 @@ fn ideal() -> Params {
                 korn_factor: 9.0,
             },
         },
-        inflow: inflow::Params { induced_power_factor: 1.0 },
+        inflow: inflow::Params {
+            induced_power_factor: 1.0,
+            recirculation: 0.0,
+            download_near_ground: Table1 { x: vec![0.5, 3.0], y: vec![0.5, 1.0] },
+        },
         flapping: flapping::Params {
             blade_inertia_kg_m2: 139.0,
             blade_spring_n_m_per_rad: 773e3,
@@ -101,6 +105,47 @@ fn a_hovering_rotor_moves_the_air_of_momentum_theory() {
     let (state, out) = settled(&params, &hovering(8.0 * DEG));
     let ideal_mps = sqrt(out.thrust_n / (2.0 * DENSITY * params.disc_area_m2()));
     assert!((state.inflow.mean_mps / ideal_mps - 1.0).abs() < 1e-9);
+}
+
+/// What a rotor at constant pitch and speed gives up of its thrust when it begins to rise, N s/m.
+fn heave_damping(params: &Params, collective_rad: f64, rise_mps: f64) -> f64 {
+    let still = settled(params, &hovering(collective_rad)).1.thrust_n;
+    let mut inputs = hovering(collective_rad);
+    inputs.motion.airspeed_mps.z = -rise_mps;
+    (still - settled(params, &inputs).1.thrust_n) / rise_mps
+}
+
+/// T_w = ½K/(1 + K/(4ρA·v0)), K = ¼ρabcΩR²: blade elements against the momentum of the disc.
+#[test]
+fn heave_in_hover_is_damped_as_momentum_theory_says_both_ways() {
+    let params = ideal();
+    let (state, _) = settled(&params, &hovering(8.0 * DEG));
+    let root = square(params.blade.root_norm);
+    let bladed =
+        3.0 * 0.3556 * 5.7 * DENSITY * OMEGA * square(params.radius_m) * (1.0 - root) / 4.0;
+    let disc = 4.0 * DENSITY * params.disc_area_m2() * state.inflow.mean_mps;
+    let expected = 0.5 * bladed / (1.0 + bladed / disc);
+    for rise_mps in [0.5, -0.5] {
+        let found = heave_damping(&params, 8.0 * DEG, rise_mps);
+        assert!((found / expected - 1.0).abs() < 0.1, "{rise_mps} m/s: {found} {expected}");
+    }
+}
+
+#[test]
+fn the_vortex_ring_takes_most_of_the_damping_and_gives_it_back() {
+    let params = ideal();
+    let (state, _) = settled(&params, &hovering(8.0 * DEG));
+    let slope = |part: f64| {
+        let sink_mps = part * state.inflow.mean_mps;
+        let thrust = |sink_mps: f64| {
+            let mut inputs = hovering(8.0 * DEG);
+            inputs.motion.airspeed_mps.z = sink_mps;
+            settled(&params, &inputs).1.thrust_n
+        };
+        (thrust(sink_mps + 0.5) - thrust(sink_mps - 0.5)) / heave_damping(&params, 8.0 * DEG, 0.5)
+    };
+    let (slow, ring, fast) = (slope(0.1), slope(0.8), slope(2.5));
+    assert!(slow > 0.7 && ring < 0.35 && fast > 0.7, "{slow} {ring} {fast}");
 }
 
 /// Without drag all power is induced: never less than the ideal, and little more where the twist
@@ -176,6 +221,21 @@ fn the_disc_lags_a_turning_mast() {
     let expected = -16.0 / (lessened * OMEGA) * 0.2;
     assert!((out.tilt_aft_rad / expected - 1.0).abs() < 0.1, "{} {expected}", out.tilt_aft_rad);
     assert!(out.tilt_outboard_rad < 0.0);
+}
+
+/// Amer's effect: the force leans by 1 − 3/2·k/(1 + k) of the disc's lag, k = aσ/(16·λ0). The blade
+/// that is pitched up to turn the disc has more of its lift in the plane of the disc, the more the
+/// steeper the inflow comes: a loaded proprotor damps little over half of what T·h·16/(γ*Ω) says.
+#[test]
+fn the_force_of_a_turning_rotor_leans_less_than_its_disc() {
+    let params = ideal();
+    let mut inputs = hovering(8.0 * DEG);
+    inputs.motion.angular_rate_radps.y = 0.2;
+    let (state, out) = settled(&params, &inputs);
+    let k = 5.7 * 0.0891 / (16.0 * state.inflow.mean_mps / (OMEGA * params.radius_m));
+    let leans = out.load.force_n.x / (out.thrust_n * -out.tilt_aft_rad);
+    let expected = 1.0 - 1.5 * k / (1.0 + k);
+    assert!((leans / expected - 1.0).abs() < 0.1, "{leans} {expected}");
 }
 
 #[test]

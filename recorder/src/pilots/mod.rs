@@ -1,0 +1,174 @@
+//! Pilot models: they look at the aircraft, and move a virtual stick, lever, pedals and thumb switches.
+//!
+//! What they send are raw device events of the device that the cockpit map calls `pilot`: the path
+//! that hardware takes. They move their hands fifty times a second, and know nothing of the aircraft
+//! but what windows, dials and seat tell.
+
+pub mod corridor;
+mod device;
+mod phase;
+mod skill;
+
+use engine::cockpit::{self, AxisControl};
+use engine::frames::{Ned, Vec3};
+use engine::{Outputs, STEP_S};
+
+pub use device::{DEVICE, VirtualDevice};
+use phase::{Order, Phase};
+use skill::{Eyes, HAND_TICKS, Skill};
+
+use crate::hands::{Hands, Reach};
+
+/// Names of the pilot models, each with what it flies.
+pub const PILOTS: [(&str, &str); 7] = [
+    ("hover", "lifts off, hovers at 10 m and keeps hovering"),
+    ("demo", "vertical take-off, conversion, left turn, reconversion, landing where it began"),
+    ("takeoff", "lifts off, accelerates as a helicopter to 80 kt and flies on"),
+    ("convert", "the same, then converts and flies on as an aeroplane at 170 kt"),
+    ("turn", "the same, then turns left on and on"),
+    ("reconvert", "begins as an aeroplane (or becomes one), reconverts, hovers"),
+    ("land", "comes to a hover from whatever it begins in, and lands"),
+];
+
+/// Whether the pilot model of that name ends its flight by itself.
+pub fn lands(name: &str) -> bool {
+    matches!(name, "demo" | "land")
+}
+
+/// From standing on the runway to flying as a helicopter.
+const TAKE_OFF: [(&str, Phase); 3] = [
+    ("on the ground", Phase::Wait { seconds: 1.0 }),
+    ("take-off", Phase::Rise { height_m: 10.0, climb_mps: 2.0 }),
+    ("acceleration", Phase::Accelerate { knots: 85.0, height_m: 60.0 }),
+];
+
+/// The plan of a pilot model, for a flight that begins on the wheels or in the air.
+fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
+    let forever = Phase::Hold { seconds: f64::INFINITY };
+    let mut plan = if on_wheels { TAKE_OFF.to_vec() } else { Vec::new() };
+    let convert = ("conversion", Phase::Convert { knots: 170.0 });
+    let cruise = ("aeroplane", forever);
+    let stop = ("reconversion", Phase::Stop { height_m: 10.0 });
+    match name {
+        "hover" if on_wheels => {
+            plan.truncate(2);
+            plan.push(("hover", forever));
+        }
+        "hover" => plan.extend([stop, ("hover", forever)]),
+        "takeoff" => plan.push(("helicopter", forever)),
+        "convert" => plan.extend([convert, cruise]),
+        "turn" => {
+            let bank_rad = 30_f64.to_radians();
+            plan.extend([convert, ("left turn", Phase::Circle { bank_rad })]);
+        }
+        "reconvert" => plan.extend([convert, cruise_for(5.0), stop, ("hover", forever)]),
+        "land" if on_wheels => {
+            plan.truncate(2);
+            plan.push(("landing", Phase::Land));
+        }
+        "land" => plan.extend([stop, ("landing", Phase::Land)]),
+        "demo" => {
+            plan.splice(2..2, [("hover", Phase::Hold { seconds: 3.0 }), ("marker", Phase::Mark)]);
+            plan.extend([
+                ("conversion", Phase::Convert { knots: 150.0 }),
+                ("climb", Phase::Climb { height_m: 120.0 }),
+                ("left turn", Phase::Home { bank_rad: 40_f64.to_radians() }),
+                ("approach", Phase::Approach { height_m: 10.0 }),
+                ("hover turn", Phase::FaceStart),
+                ("hover", Phase::Hold { seconds: 2.0 }),
+                ("landing", Phase::Land),
+            ]);
+        }
+        _ => return None,
+    }
+    Some(plan)
+}
+
+fn cruise_for(seconds: f64) -> (&'static str, Phase) {
+    ("aeroplane", Phase::Hold { seconds })
+}
+
+/// A pilot model: a list of phases, flown one after the other.
+pub struct Pilot {
+    device: VirtualDevice,
+    name: &'static str,
+    phases: Vec<(&'static str, Phase)>,
+    at: usize,
+    since_tick: u64,
+    order: Order,
+    skill: Skill,
+    started: bool,
+    touched_tick: Option<u64>,
+    /// The thumb on the nacelle switch: −1 forward, 0 off it, 1 aft.
+    thumb: i8,
+    /// When the other hand last moved a handle.
+    handle_tick: u64,
+}
+
+impl Pilot {
+    /// The pilot model of that name, its hands on the map's virtual device.
+    pub fn named(name: &str, map: &cockpit::Params) -> Option<Self> {
+        let (name, _) = PILOTS.into_iter().find(|(known, _)| *known == name)?;
+        Some(Self {
+            device: VirtualDevice::of(map)?,
+            name,
+            phases: plan(name, true)?,
+            at: 0,
+            since_tick: 0,
+            order: Order::default(),
+            skill: Skill::default(),
+            started: false,
+            touched_tick: None,
+            thumb: 0,
+            handle_tick: 0,
+        })
+    }
+
+    /// Names of its phases, in order, for a flight that begins on the wheels.
+    pub fn phases(&self) -> Vec<&'static str> {
+        self.phases.iter().map(|(name, _)| *name).collect()
+    }
+
+    fn begin(&mut self, seen: &Outputs) {
+        self.started = true;
+        let on_wheels = Eyes::look(seen).on_wheels_norm > 0.5;
+        self.phases = plan(self.name, on_wheels).unwrap_or_default();
+        self.skill = Skill::taking_over(seen);
+        self.order = Order::beginning(seen);
+    }
+}
+
+impl Hands for Pilot {
+    fn act(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
+        if !reach.tick.is_multiple_of(HAND_TICKS) {
+            return;
+        }
+        if !self.started {
+            self.begin(seen);
+        }
+        let Some(&(name, phase)) = self.phases.get(self.at) else {
+            *reach.done = true;
+            return;
+        };
+        *reach.phase = (self.at as u64 + 1, name);
+        let since_s = (reach.tick - self.since_tick) as f64 * STEP_S;
+        let over = self.give_orders(phase, seen, since_s, reach);
+        let to = self.positions(phase, seen, reach.tick);
+        self.device.set(reach, AxisControl::StickAft, to.stick_aft_norm);
+        self.device.set(reach, AxisControl::StickRight, to.stick_right_norm);
+        self.device.set(reach, AxisControl::PedalRight, to.pedal_right_norm);
+        self.device.set(reach, AxisControl::Collective, to.lever_norm);
+        self.switches(seen, reach);
+        if over {
+            self.at += 1;
+            self.since_tick = reach.tick;
+            self.order.turned_rad = 0.0;
+        }
+    }
+}
+
+/// Where a spot is from here: bearing and distance.
+fn bearing(seen: &Outputs, spot_m: Vec3<Ned>) -> (f64, f64) {
+    let off = spot_m - seen.position_m;
+    (engine::math::atan2(off.y, off.x), engine::math::sqrt(off.x * off.x + off.y * off.y))
+}

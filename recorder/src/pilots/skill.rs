@@ -1,0 +1,336 @@
+//! Hand–eye coordination: from what the pilot wants to stick, pedals and lever.
+//!
+//! # Equations
+//! ```text
+//! wanted:  a = k_V·(V − V_now),  a_up = k_c·(climb − climb_now)                each within its limit
+//! learned: ⎡a   ⎤   ⎡−g     Z_l·sin β⎤ ⎡Δθ⎤
+//!          ⎣a_up⎦ = ⎣ Z_α   Z_l·cos β⎦·⎣Δl⎦
+//! hands:   θ, l = part of what is wanted + ∫ rate · learned⁻¹·(wanted − felt)
+//! ```
+//! As a helicopter (β = 0) that is speed by attitude and climb by lever; as an aeroplane (β = 90°)
+//! climb by attitude and speed by lever; between them what a conversion needs. The aircraft may answer
+//! twice or half as strongly: the integral of what is felt makes up for it.
+//! # Signs
+//! θ nose up, l lever up, β mast tilt with 0 as a helicopter. Stick aft, stick right, right pedal
+//! positive.
+
+use engine::frames::Attitude;
+use engine::math::{atan2, clamp, cos, min, ramp, sin, wrap_angle};
+use engine::{GRAVITY_MPS2, Outputs, STEP_S};
+
+/// Ticks between two movements of the hands.
+pub const HAND_TICKS: u64 = 5;
+/// Time between them, s.
+pub const HAND_S: f64 = HAND_TICKS as f64 * STEP_S;
+
+/// What the pilot wants to hold.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Aim {
+    /// Along the nose: over the ground when slow, through the air when fast.
+    pub forward_mps: f64,
+    /// Over the ground whatever the speed.
+    pub over_ground: bool,
+    /// To the right over the ground, when slow.
+    pub right_mps: f64,
+    /// What that speed is to change by anyway.
+    pub forward_mps2: f64,
+    /// Greatest acceleration along the nose.
+    pub forward_mps2_max: f64,
+    /// Upwards.
+    pub climb_mps: f64,
+    /// Where the nose points.
+    pub heading_rad: f64,
+    /// Bank that the pilot allows when fast.
+    pub bank_rad_max: f64,
+}
+
+/// Stick, lever and pedals.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Positions {
+    /// Longitudinal.
+    pub stick_aft_norm: f64,
+    /// Lateral.
+    pub stick_right_norm: f64,
+    /// Pedals.
+    pub pedal_right_norm: f64,
+    /// Power lever.
+    pub lever_norm: f64,
+}
+
+/// What is seen out of the window, on the dials, and felt in the seat.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Eyes {
+    /// Over the ground along the nose.
+    pub forward_mps: f64,
+    /// Over the ground to the right.
+    pub right_mps: f64,
+    /// Upwards.
+    pub climb_mps: f64,
+    /// Acceleration along the nose, level.
+    pub forward_mps2: f64,
+    /// Upwards.
+    pub up_mps2: f64,
+    /// Part of the weight that is on the wheels.
+    pub on_wheels_norm: f64,
+}
+
+impl Eyes {
+    /// Looks.
+    pub fn look(seen: &Outputs) -> Self {
+        let (s, c) = (sin(seen.euler.heading_rad), cos(seen.euler.heading_rad));
+        let v = seen.velocity_mps;
+        let felt = Attitude::from_euler(seen.euler).ned_from_body() * seen.specific_force_mps2;
+        let legs = &seen.landing_gear;
+        let push_n = legs.nose.push_n + legs.main.map(|leg| leg.push_n).sum();
+        Self {
+            forward_mps: v.x * c + v.y * s,
+            right_mps: v.y * c - v.x * s,
+            climb_mps: -v.z,
+            forward_mps2: felt.x * c + felt.y * s,
+            up_mps2: -felt.z - GRAVITY_MPS2,
+            on_wheels_norm: push_n / (seen.balance.mass_kg * GRAVITY_MPS2),
+        }
+    }
+}
+
+/// Greatest vertical acceleration asked for, m/s².
+const UP_MPS2_MAX: f64 = 2.0;
+/// k_V, 1/s.
+const SPEED_PER_S: f64 = 0.3;
+/// k_c over a spot and in flight, 1/s.
+const CLIMB_PER_S: [f64; 2] = [0.8, 0.6];
+/// How fast the lever makes up for what is felt, over a spot and in flight, 1/s.
+const LEARN_LEVER_PER_S: [f64; 2] = [0.9, 0.5];
+/// How fast the attitude does, 1/s.
+const LEARN_PITCH_PER_S: [f64; 2] = [0.4, 1.2];
+/// Part of what is wanted that the hands do at once.
+const AT_ONCE: f64 = 0.7;
+/// What is felt is felt with this lag, s.
+const FEEL_S: f64 = 0.25;
+/// Torque of a mast that the pilot does not exceed, N·m: the continuous limit, 130,000 in-lb.
+const TORQUE_N_M_MAX: f64 = 14_690.0;
+/// Angle of attack that the pilot does not exceed when the wing carries, rad.
+const ALPHA_RAD_MAX: f64 = 0.2;
+/// Attitude that the pilot does not exceed, rad.
+const PITCH_RAD_MAX: f64 = 0.3;
+
+/// What the hands remember.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Skill {
+    felt_forward_mps2: f64,
+    felt_up_mps2: f64,
+    pitch_rad: f64,
+    lever_norm: f64,
+    lever_norm_max: f64,
+    roll_rad: f64,
+    roll_level_rad: f64,
+    stick_aft_norm: f64,
+    stick_right_norm: f64,
+    pedal_right_norm: f64,
+}
+
+impl Skill {
+    /// Takes the controls over where they are.
+    pub fn taking_over(seen: &Outputs) -> Self {
+        Self {
+            pitch_rad: seen.euler.pitch_rad,
+            roll_rad: seen.euler.roll_rad,
+            lever_norm: seen.cockpit.collective_norm,
+            lever_norm_max: 1.0,
+            stick_aft_norm: seen.cockpit.stick_aft_norm,
+            stick_right_norm: seen.cockpit.stick_right_norm,
+            pedal_right_norm: seen.cockpit.pedal_right_norm,
+            ..Self::default()
+        }
+    }
+
+    /// Lowers the lever and lets the stick go, on the wheels.
+    pub fn settle(&mut self, lower_per_s: f64) -> Positions {
+        let fade = 1.0 - HAND_S / 0.7;
+        self.stick_aft_norm *= fade;
+        self.stick_right_norm *= fade;
+        self.pedal_right_norm *= fade;
+        self.lever_norm = clamp(self.lever_norm - lower_per_s * HAND_S, 0.0, 1.0);
+        Positions {
+            stick_aft_norm: self.stick_aft_norm,
+            stick_right_norm: self.stick_right_norm,
+            pedal_right_norm: self.pedal_right_norm,
+            lever_norm: self.lever_norm,
+        }
+    }
+
+    /// Moves the hands once.
+    pub fn fly(&mut self, seen: &Outputs, aim: &Aim) -> Positions {
+        let eyes = Eyes::look(seen);
+        // Below 30 kt it is a helicopter over a spot, above 50 kt something that flies.
+        let flying = ramp(seen.airspeed_mps, 15.0, 26.0);
+        let (pitch_rad, lever_norm) = self.pitch_and_lever(seen, &eyes, aim, flying);
+        let roll_rad = self.roll(seen, &eyes, aim, flying);
+        let on_wheels = eyes.on_wheels_norm > 0.1;
+
+        // The faster, the lighter the hand.
+        let q_pa = 0.5 * seen.air.density_kg_per_m3 * seen.airspeed_mps * seen.airspeed_mps;
+        let light = 1.0 / (1.0 + q_pa / 1500.0);
+        let rate = seen.angular_rate_radps;
+        let pitch_radps = clamp(1.8 * (pitch_rad - seen.euler.pitch_rad), -0.2, 0.2);
+        let turn_radps = flying * GRAVITY_MPS2 * sin(seen.euler.roll_rad)
+            / engine::math::max(seen.airspeed_mps, 15.0);
+        let pull_off = pitch_radps + turn_radps * sin(seen.euler.roll_rad) - rate.y;
+        let roll_off = clamp(1.5 * (roll_rad - seen.euler.roll_rad), -0.35, 0.35) - rate.x;
+        let learn = if on_wheels { 0.0 } else { HAND_S };
+        self.stick_aft_norm =
+            clamp(self.stick_aft_norm + 0.9 * light * pull_off * learn, -0.9, 0.9);
+        self.stick_right_norm = clamp(self.stick_right_norm + 0.4 * roll_off * learn, -0.6, 0.6);
+
+        // Slow: the nose by pedals. Fast: the ball in the middle.
+        let heading_off = wrap_angle(aim.heading_rad - seen.euler.heading_rad);
+        let yaw_radps = clamp(0.6 * heading_off, -0.2, 0.2);
+        let spot_foot = 2.2 * yaw_radps + 2.5 * (yaw_radps - rate.z);
+        let ball = -seen.specific_force_mps2.y / GRAVITY_MPS2;
+        let ball_foot = 0.8 * ball + 0.5 * (turn_radps - rate.z);
+        let slow = 1.0 - flying;
+        let nearly = if heading_off.abs() < 0.15 { heading_off } else { 0.0 };
+        let learned_foot = slow * 0.25 * nearly + flying * 0.3 * ball_foot;
+        self.pedal_right_norm = clamp(self.pedal_right_norm + learned_foot * learn, -0.7, 0.7);
+        Positions {
+            stick_aft_norm: self.stick_aft_norm + 1.5 * light * pull_off,
+            stick_right_norm: self.stick_right_norm + 0.5 * roll_off,
+            pedal_right_norm: self.pedal_right_norm + slow * spot_foot + flying * 0.9 * ball_foot,
+            lever_norm,
+        }
+    }
+
+    fn pitch_and_lever(
+        &mut self,
+        seen: &Outputs,
+        eyes: &Eyes,
+        aim: &Aim,
+        flying: f64,
+    ) -> (f64, f64) {
+        let feel = HAND_S / FEEL_S;
+        self.felt_forward_mps2 += feel * (eyes.forward_mps2 - self.felt_forward_mps2);
+        self.felt_up_mps2 += feel * (eyes.up_mps2 - self.felt_up_mps2);
+
+        let through_air = if aim.over_ground { 0.0 } else { flying };
+        let now_mps = eyes.forward_mps + through_air * (seen.airspeed_mps - eyes.forward_mps);
+        let forward_mps2 = clamp(
+            aim.forward_mps2 + SPEED_PER_S * (aim.forward_mps - now_mps),
+            -aim.forward_mps2_max,
+            aim.forward_mps2_max,
+        );
+        let climb_off_mps = aim.climb_mps - eyes.climb_mps;
+        let climb_per_s = CLIMB_PER_S[0] + flying * (CLIMB_PER_S[1] - CLIMB_PER_S[0]);
+        let up_mps2 = clamp(climb_per_s * climb_off_mps, -UP_MPS2_MAX, UP_MPS2_MAX);
+
+        let tilt_rad = seen.actuators.mast_tilt_rad.mean();
+        let learned = Learned::at(seen, tilt_rad);
+        self.watch_torque(seen);
+        let (mut at_once_rad, at_once_norm) =
+            learned.hands(AT_ONCE * forward_mps2, AT_ONCE * up_mps2);
+        let up_off_mps2 = up_mps2 - self.felt_up_mps2;
+        let mut off = learned.hands(forward_mps2 - self.felt_forward_mps2, up_off_mps2);
+        let lever_norm = self.lever_norm + at_once_norm;
+        let at_end = (lever_norm >= self.lever_norm_max && off.1 > 0.0)
+            || (lever_norm <= 0.0 && off.1 < 0.0);
+        // Height before speed: the lever helps no speed while the height goes the other way.
+        if flying > 0.5 && climb_off_mps.abs() > 2.0 && off.1 * climb_off_mps < 0.0 {
+            off.1 = 0.0;
+        }
+        if at_end && seen.airspeed_mps > 40.0 {
+            // No lever left: the wing carries, and the speed is what it is.
+            at_once_rad = AT_ONCE * up_mps2 / learned.lift_mps2;
+            off.0 = up_off_mps2 / learned.lift_mps2;
+        }
+        let on_wheels = eyes.on_wheels_norm > 0.1;
+        let learn_lever_per_s =
+            LEARN_LEVER_PER_S[0] + flying * (LEARN_LEVER_PER_S[1] - LEARN_LEVER_PER_S[0]);
+        let learn_per_s =
+            LEARN_PITCH_PER_S[0] + flying * (LEARN_PITCH_PER_S[1] - LEARN_PITCH_PER_S[0]);
+        if !on_wheels {
+            let alpha_left_rad = ALPHA_RAD_MAX - seen.alpha_rad;
+            let highest_rad = if flying > 0.5 {
+                min(PITCH_RAD_MAX, seen.euler.pitch_rad + alpha_left_rad)
+            } else {
+                PITCH_RAD_MAX
+            };
+            self.pitch_rad = clamp(
+                self.pitch_rad + learn_per_s * off.0 * HAND_S,
+                -PITCH_RAD_MAX - at_once_rad,
+                highest_rad - at_once_rad,
+            );
+        }
+        self.lever_norm = clamp(
+            self.lever_norm + learn_lever_per_s * off.1 * HAND_S,
+            0.0 - at_once_norm,
+            self.lever_norm_max - at_once_norm,
+        );
+        (
+            self.pitch_rad + if on_wheels { 0.0 } else { at_once_rad },
+            clamp(self.lever_norm + at_once_norm, 0.0, self.lever_norm_max),
+        )
+    }
+
+    /// Takes the lever back from where the masts' torque or the rotors' speed is beyond its limit.
+    fn watch_torque(&mut self, seen: &Outputs) {
+        let torque = seen.engines.torque_n_m.sum() * 0.5 / TORQUE_N_M_MAX;
+        let step = if torque > 1.0 { -0.5 * (torque - 1.0) } else { 0.05 } * HAND_S;
+        self.lever_norm_max = clamp(self.lever_norm_max + step, 0.3, 1.0);
+    }
+
+    /// Bank: to the side when slow, to the heading when fast.
+    fn roll(&mut self, seen: &Outputs, eyes: &Eyes, aim: &Aim, flying: f64) -> f64 {
+        let right_off = aim.right_mps - eyes.right_mps;
+        let slow = 1.0 - flying;
+        if eyes.on_wheels_norm < 0.1 {
+            self.roll_level_rad =
+                clamp(self.roll_level_rad + slow * 0.006 * right_off * HAND_S, -0.15, 0.15);
+            self.roll_level_rad *= 1.0 - flying * HAND_S / 2.0;
+        }
+        let hover_rad = clamp(0.05 * right_off, -0.2, 0.2);
+        let heading_off = wrap_angle(aim.heading_rad - seen.euler.heading_rad);
+        let turn_radps = clamp(0.2 * heading_off, -0.35, 0.35);
+        let bank_rad = clamp(
+            atan2(seen.airspeed_mps * turn_radps, GRAVITY_MPS2),
+            -aim.bank_rad_max,
+            aim.bank_rad_max,
+        );
+        let wanted_rad = slow * hover_rad + flying * bank_rad;
+        // Nobody throws an aircraft into a turn: fifteen degrees a second.
+        self.roll_rad += clamp(wanted_rad - self.roll_rad, -0.25 * HAND_S, 0.25 * HAND_S)
+            * if slow > 0.5 { 3.0 } else { 1.0 };
+        self.roll_level_rad + self.roll_rad
+    }
+}
+
+/// What the pilot has learned about the aircraft's answer to attitude and lever.
+struct Learned {
+    /// Z_α, m/s² per rad.
+    lift_mps2: f64,
+    /// Z_l·sin β and Z_l·cos β, m/s² for the whole lever.
+    along_mps2: f64,
+    up_mps2: f64,
+}
+
+impl Learned {
+    fn at(seen: &Outputs, tilt_rad: f64) -> Self {
+        let v = seen.airspeed_mps;
+        let q_pa = 0.5 * seen.air.density_kg_per_m3 * v * v;
+        // The same power is less thrust the faster the air goes through the rotors.
+        let lever_mps2 = min(9.0, 330.0 / engine::math::max(v, 1.0));
+        Self {
+            lift_mps2: 0.014 * q_pa,
+            along_mps2: lever_mps2 * sin(tilt_rad),
+            up_mps2: lever_mps2 * cos(tilt_rad),
+        }
+    }
+
+    /// Attitude and lever for accelerations along the nose and upwards.
+    fn hands(&self, forward_mps2: f64, up_mps2: f64) -> (f64, f64) {
+        let Self { lift_mps2, along_mps2: s, up_mps2: c } = *self;
+        let whole = GRAVITY_MPS2 * c + lift_mps2 * s;
+        (
+            (s * up_mps2 - c * forward_mps2) / whole,
+            (GRAVITY_MPS2 * up_mps2 + lift_mps2 * forward_mps2) / whole,
+        )
+    }
+}

@@ -1,0 +1,55 @@
+//! A flight without clock, log and link: for tests, and for whoever asks the model a question that
+//! takes a pilot.
+
+use engine::inputs::{DeviceEvent, World};
+use engine::start::Start;
+use engine::{Aircraft, Inputs, Outputs, State, step, trim};
+
+use crate::flight::Crew;
+use crate::hands::Hands;
+
+/// One tick of a rehearsal.
+pub struct Moment<'a> {
+    /// After the tick.
+    pub state: &'a State,
+    /// After the tick.
+    pub outputs: &'a Outputs,
+    /// What the hands did.
+    pub events: &'a [DeviceEvent],
+    /// What the world was.
+    pub world: &'a World,
+    /// Name of the pilot's phase.
+    pub phase: &'static str,
+}
+
+/// Flies until the hands are done or the time is up; `look` sees every tick. The inputs are the same
+/// as those of [`fly`](crate::fly()), and so are the bits.
+///
+/// # Errors
+/// When there is no steady flight to begin in.
+pub fn rehearse(
+    aircraft: &Aircraft,
+    start: &Start,
+    hands: Vec<Box<dyn Hands>>,
+    ticks_max: u64,
+    mut look: impl FnMut(&Moment<'_>),
+) -> Result<(State, Outputs), trim::Failure> {
+    let mut state = start.state(aircraft)?;
+    let mut crew = Crew::new(hands, start.world.world());
+    let mut outputs = crew.first_look(aircraft, &state);
+    let mut events = Vec::new();
+    while !crew.done && state.tick < ticks_max {
+        events.clear();
+        crew.act(state.tick, &outputs, &mut events);
+        let world = crew.world;
+        (state, outputs) = step(aircraft, &state, &Inputs { events: &events, world });
+        look(&Moment {
+            state: &state,
+            outputs: &outputs,
+            events: &events,
+            world: &world,
+            phase: crew.phase.1,
+        });
+    }
+    Ok((state, outputs))
+}

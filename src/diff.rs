@@ -1,0 +1,299 @@
+//! `tiltrotor diff`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Result, anyhow};
+use engine::STEP_S;
+use engine::inputs::{DeviceEvent, EventKind};
+use indicatif::{ProgressBar, ProgressStyle};
+use logs::Ending;
+use logs::units::with_unit;
+use replay::{Diff, Extent, FileDifference, KeyDifference, Side, Stage, Which, diff};
+use serde_json::{Value, json};
+
+use crate::{json, report};
+
+/// Two logs.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The first log
+    a: PathBuf,
+    /// The second log
+    b: PathBuf,
+    /// How to report
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+    /// Every field and key that differs, not only the first ones
+    #[arg(long)]
+    all: bool,
+}
+
+/// Form of the report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// For people
+    Text,
+    /// For programs: docs/reports.md
+    Json,
+}
+
+/// Lines of a list, unless all are asked for.
+const LINES: usize = 12;
+
+/// Compares them as they were recorded. Exit 0 the same flight, 1 not, 2 not usable.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
+        bar.set_style(style);
+    }
+    let found = diff(&args.a, &args.b, |ticks| {
+        if ticks.is_multiple_of(2500) {
+            bar.set_message(format!("{:.0} s compared", ticks as f64 * STEP_S));
+            bar.tick();
+        }
+    });
+    bar.finish_and_clear();
+    let diff = found.map_err(|(which, error)| {
+        let log = if which == Which::A { &args.a } else { &args.b };
+        anyhow!("{}: {error}", log.display())
+    })?;
+    match args.format {
+        Format::Text => tell(args, &diff),
+        Format::Json => say!("{:#}", in_json(args, &diff)),
+    }
+    Ok(ExitCode::from(status(&diff)))
+}
+
+fn status(diff: &Diff) -> u8 {
+    match (diff.usable(), diff.same()) {
+        (false, _) => report::UNUSABLE,
+        (true, true) => 0,
+        (true, false) => report::DIVERGED,
+    }
+}
+
+fn when(tick: u64) -> String {
+    format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S)
+}
+
+fn tell(args: &Args, diff: &Diff) {
+    let most = if args.all { usize::MAX } else { LINES };
+    for (name, path, side) in [("A", &args.a, &diff.a), ("B", &args.b, &diff.b)] {
+        say!("{name}  {}: {}", path.display(), told(side));
+    }
+    for KeyDifference { key, a, b } in &diff.identity {
+        say!("   {key}: {} in A, {} in B", or_none(a.as_deref()), or_none(b.as_deref()));
+    }
+    for FileDifference { name, keys } in &diff.files {
+        match keys.len() {
+            0 => say!("{name}: not the same text, but the same values"),
+            count => say!("{name}: {count} values differ"),
+        }
+        some(keys, most, |KeyDifference { key, a, b }| {
+            say!("  {key}: {} in A, {} in B", or_none(a.as_deref()), or_none(b.as_deref()));
+        });
+    }
+    match diff.compared {
+        None => say!("they have no tick in common"),
+        Some((from, to)) => {
+            say!("compared: {} ticks, from {} to {}", diff.ticks, when(from), when(to))
+        }
+    }
+    tell_inputs(diff, most);
+    tell_states(diff, most);
+    if diff.usable() {
+        say!("{}", if diff.same() { "the same flight" } else { "they differ" });
+    } else {
+        say!(
+            "not usable to its end: {}",
+            if diff.same() { "the same up to there" } else { "they differ" }
+        );
+    }
+}
+
+fn told(side: &Side) -> String {
+    let end = match (&side.disorder, &side.ending) {
+        (Some(disorder), _) => disorder.clone(),
+        (None, Ending::Closed) => "closed".into(),
+        (None, Ending::Truncated) => "never closed".into(),
+        (None, Ending::Damaged(why)) => format!("damaged: {why}"),
+    };
+    let (from, to) = (when(side.start_tick), when(side.last_tick));
+    format!("from {from} to {to}, digest {:016x}, {end}", side.digest)
+}
+
+fn or_none(value: Option<&str>) -> &str {
+    value.unwrap_or("nothing")
+}
+
+/// The first lines of a list, and how many more there are.
+fn some<T>(list: &[T], most: usize, tell: impl Fn(&T)) {
+    list.iter().take(most).for_each(tell);
+    if list.len() > most {
+        say!("  and {} more (--all)", list.len() - most);
+    }
+}
+
+fn tell_inputs(diff: &Diff, most: usize) {
+    if let Some(first) = &diff.events.first {
+        say!(
+            "device events: not the same in {} ticks, first for {}",
+            diff.events.ticks,
+            when(first.tick)
+        );
+        say!("  A         {}", event(first.a.as_ref()));
+        say!("  B         {}", event(first.b.as_ref()));
+    }
+    if !diff.world.is_empty() {
+        say!("world: {} fields differ", diff.world.len());
+        some(&diff.world, most, tell_extent);
+    }
+    if diff.events.ticks == 0 && diff.world.is_empty() {
+        say!("inputs: the same");
+    }
+}
+
+fn event(event: Option<&DeviceEvent>) -> String {
+    let Some(DeviceEvent { kernel_time_ns, device, kind, code, value, .. }) = event else {
+        return "nothing".into();
+    };
+    let kind = match EventKind::from_u64(*kind) {
+        Some(EventKind::Axis) => "axis",
+        Some(EventKind::Button) => "button",
+        Some(EventKind::Connected) => "connected",
+        Some(EventKind::Disconnected) => "disconnected",
+        None => "event",
+    };
+    format!("device {device} {kind} 0x{code:x} = {value}, at the kernel's time {kernel_time_ns} ns")
+}
+
+fn tell_states(diff: &Diff, most: usize) {
+    let Some(first) = &diff.first else {
+        say!("states: the same to the bit");
+        return;
+    };
+    say!("states: {} fields differ, first at {}", diff.state.len(), when(first.tick));
+    if diff.parts_at_start() {
+        say!("  stage     none: they begin with it");
+    } else {
+        let stage = first.stage.map_or("(not known here)", Stage::name);
+        let before = first.stage.and_then(Stage::or_before);
+        say!(
+            "  stage     {stage}{}",
+            before.map_or(String::new(), |it| format!(", or before it {it}"))
+        );
+    }
+    say!("  field     {}", first.path);
+    for (name, value) in [("A", first.recorded), ("B", first.reflown)] {
+        say!("  {name:<9} {}  (0x{:016x})", with_unit(value, &first.unit), value.bits());
+    }
+    let ulps = first.recorded.ulps_to(first.reflown);
+    say!("  apart     {} ULP", ulps.map_or("?".into(), |ulps| ulps.to_string()));
+    say!("  others    {} more fields differ at this tick", first.others);
+    if let Some(input) = &first.last_input {
+        say!("  last input of A: {input}");
+    }
+    say!("  largest differences, by the tick of the first");
+    let mut fields: Vec<&Extent> = diff.state.iter().collect();
+    let stage = |extent: &Extent| Stage::of_state(&extent.path).unwrap_or(Stage::Step);
+    fields.sort_by_key(|extent| (extent.first_tick, stage(extent)));
+    some(&fields, most, |extent| tell_extent(extent));
+    say!("{}", first.growth);
+}
+
+fn tell_extent(extent: &Extent) {
+    let Extent { path, unit, first_tick, ticks, largest, largest_tick, ulps, .. } = extent;
+    say!(
+        "    {path}: {} at {}, {ulps} ULP at most; {ticks} ticks, from {} on",
+        with_unit(format!("{largest:.3e}"), unit),
+        when(*largest_tick),
+        when(*first_tick)
+    );
+}
+
+/// As `docs/reports.md` has it.
+fn in_json(args: &Args, diff: &Diff) -> Value {
+    let side = |path: &PathBuf, side: &Side| {
+        json!({
+            "log": path.display().to_string(),
+            "start_tick": side.start_tick,
+            "last_tick": side.last_tick,
+            "digest": format!("{:016x}", side.digest),
+            "ending": match &side.ending {
+                Ending::Closed => "closed",
+                Ending::Truncated => "never_closed",
+                Ending::Damaged(_) => "damaged",
+            },
+            "damage": match &side.ending {
+                Ending::Damaged(why) => Some(why),
+                _ => side.disorder.as_ref(),
+            },
+        })
+    };
+    let keys = |keys: &[KeyDifference]| -> Value {
+        keys.iter().map(|key| json!({ "key": key.key, "a": key.a, "b": key.b })).collect()
+    };
+    let file = |file: &FileDifference| json!({ "file": file.name, "keys": keys(&file.keys) });
+    json!({
+        "report": "tiltrotor diff",
+        "version": 1,
+        "status": status(diff),
+        "same": diff.same(),
+        "a": side(&args.a, &diff.a),
+        "b": side(&args.b, &diff.b),
+        "identity": keys(&diff.identity),
+        "files": diff.files.iter().map(file).collect::<Vec<_>>(),
+        "compared": diff.compared.map(|(from, to)| json!({
+            "ticks": diff.ticks, "first_tick": from, "last_tick": to,
+        })),
+        "device_events": {
+            "ticks": diff.events.ticks,
+            "first": diff.events.first.map(|first| json!({
+                "tick": first.tick,
+                "a": first.a.as_ref().map(event_json),
+                "b": first.b.as_ref().map(event_json),
+            })),
+        },
+        "world": diff.world.iter().map(extent).collect::<Vec<_>>(),
+        "first": diff.first.as_ref().map(|first| json!({
+            "tick": first.tick,
+            "time_s": first.tick as f64 * STEP_S,
+            "at_start": diff.parts_at_start(),
+            "stage": first.stage.map(Stage::name),
+            "field": first.path,
+            "unit": first.unit,
+            "a": json::number(first.recorded),
+            "b": json::number(first.reflown),
+            "ulps": first.recorded.ulps_to(first.reflown),
+            "other_fields": first.others,
+        })),
+        "state": diff.state.iter().map(extent).collect::<Vec<_>>(),
+        "growth": diff.first.as_ref().map(|first| json::growth(&first.growth)),
+    })
+}
+
+fn event_json(event: &DeviceEvent) -> Value {
+    json!({
+        "device": event.device,
+        "kind": event.kind,
+        "code": event.code,
+        "value": event.value,
+        "kernel_time_ns": event.kernel_time_ns,
+    })
+}
+
+fn extent(extent: &Extent) -> Value {
+    json!({
+        "field": extent.path,
+        "unit": extent.unit,
+        "first_tick": extent.first_tick,
+        "ticks": extent.ticks,
+        "largest": extent.largest,
+        "largest_tick": extent.largest_tick,
+        "a": json::number(extent.a),
+        "b": json::number(extent.b),
+        "ulps": extent.ulps,
+        "ulps_tick": extent.ulps_tick,
+    })
+}
