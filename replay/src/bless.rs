@@ -75,6 +75,10 @@ pub fn bless(
     if let Some(text) = aircraft_toml {
         setup.aircraft_toml = text.into();
     }
+    if let Err(error) = read(&setup) {
+        let what = format!("the log's {error}; --aircraft FILE flies it with a file of today");
+        return Err(refused(&what));
+    }
     let initial = if reader.initial.tick == 0 {
         let aircraft = read(&setup)?.aircraft;
         aircraft::start("scenario.toml", &setup.scenario_toml)?.state(&aircraft)?

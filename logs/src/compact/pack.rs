@@ -119,16 +119,42 @@ impl Head {
         Ok(())
     }
 
-    /// The attachments as bytes; they are texts, and as attachments they would not be compressed.
-    fn files(&self) -> Vec<u8> {
+    /// The attachments as bytes; they are texts, and as attachments they would not be compressed. Then
+    /// the channels: a tool that copies the compacted log leaves those out that have no message in it.
+    fn encode(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         put(&mut bytes, self.attachments.len() as u64);
         for (header, data) in &self.attachments {
             put(&mut bytes, header.log_time);
             put(&mut bytes, header.create_time);
             for part in [header.name.as_bytes(), header.media_type.as_bytes(), data] {
-                put(&mut bytes, part.len() as u64);
-                bytes.extend_from_slice(part);
+                put_sized(&mut bytes, part);
+            }
+        }
+        put(&mut bytes, self.definitions.len() as u64);
+        for raw in &self.definitions {
+            match raw {
+                Raw::Schema { id, name, encoding, data } => {
+                    put(&mut bytes, 0);
+                    put(&mut bytes, u64::from(*id));
+                    for part in [name.as_bytes(), encoding.as_bytes(), data] {
+                        put_sized(&mut bytes, part);
+                    }
+                }
+                Raw::Channel(channel) => {
+                    put(&mut bytes, 1);
+                    put(&mut bytes, u64::from(channel.id));
+                    put(&mut bytes, u64::from(channel.schema_id));
+                    for part in [&channel.topic, &channel.message_encoding] {
+                        put_sized(&mut bytes, part.as_bytes());
+                    }
+                    put(&mut bytes, channel.metadata.len() as u64);
+                    for part in channel.metadata.iter().flat_map(|(key, value)| [key, value]) {
+                        put_sized(&mut bytes, part.as_bytes());
+                    }
+                }
+                // Nothing else is taken for a definition.
+                _ => put(&mut bytes, 2),
             }
         }
         bytes
@@ -192,7 +218,7 @@ impl Pack {
             states: 0,
             keyframe_ticks: keyframe_ticks.max(1),
         };
-        pack.write_bytes(0, &head.files())?;
+        pack.write_bytes(0, &head.encode())?;
         for raw in &head.definitions {
             pack.define(raw)?;
         }
@@ -313,9 +339,15 @@ impl Pack {
     }
 
     fn write(&mut self, header: MessageHeader, data: &[u8]) -> Result<(), LogError> {
-        add_to(&mut self.hash, &header, data);
+        let topic = self.topics.get(&header.channel_id).map_or(TOPIC, String::as_str);
+        add_to(&mut self.hash, topic, &header, data);
         Ok(self.to.write_to_known_channel(&header, data)?)
     }
+}
+
+fn put_sized(bytes: &mut Vec<u8>, part: &[u8]) {
+    put(bytes, part.len() as u64);
+    bytes.extend_from_slice(part);
 }
 
 /// Whether the message carries the times and the number that our writer gives it.
