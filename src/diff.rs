@@ -97,7 +97,7 @@ fn tell(args: &Args, diff: &Diff) {
     match diff.compared {
         None => say!("they have no tick in common"),
         Some((from, to)) => {
-            say!("compared: {} ticks, from {} to {}", diff.ticks, when(from), when(to))
+            say!("compared: {} ticks, from {} to {}", diff.ticks, when(from), when(to));
         }
     }
     tell_inputs(diff, most);

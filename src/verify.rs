@@ -3,6 +3,7 @@
 mod bless;
 mod corpus;
 mod forms;
+mod recordings;
 
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
@@ -36,6 +37,9 @@ pub struct Args {
     /// How to report
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+    /// Save a recording for the viewer of every log that diverged: recorded, reflown, difference
+    #[arg(long, value_name = "FOLDER")]
+    rrd: Option<PathBuf>,
     #[command(flatten)]
     how: How,
 }
@@ -168,6 +172,9 @@ impl Run {
 
 /// Verifies every log; the worst outcome is the exit status.
 pub fn run(args: &Args) -> Result<ExitCode> {
+    if let Some(folder) = &args.rrd {
+        recordings::prepare(folder)?;
+    }
     let whole = corpus::logs(&args.logs)?;
     let several = whole.len() > 1;
     let logs = match args.shard {
@@ -192,6 +199,9 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         Format::Text => {}
         Format::Json => say!("{:#}", forms::json(&run)),
         Format::Junit => say!("{}", forms::junit(&run)?.trim_end()),
+    }
+    if let Some(folder) = &args.rrd {
+        recordings::save(&run, folder)?;
     }
     Ok(ExitCode::from(run.status()))
 }

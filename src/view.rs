@@ -10,6 +10,9 @@ use anyhow::Result;
 pub struct Args {
     /// The log
     log: PathBuf,
+    /// Another log beside it: both aircraft in one scene, lines over each other, differences plotted
+    #[arg(long, value_name = "OTHER")]
+    against: Option<PathBuf>,
     /// Save for the viewer instead of opening it
     #[arg(long, value_name = "FLIGHT.rrd")]
     save: Option<PathBuf>,
@@ -27,7 +30,7 @@ mod with_rerun {
 
     use anyhow::{Context, bail};
     use engine::STEP_NS;
-    use replay::view::{FlightView, Level};
+    use replay::view::{DrawError, FlightView, Level, Other, draw_against};
     use replay::{Reflight, Window};
 
     use super::{Args, ExitCode, Result};
@@ -38,7 +41,16 @@ mod with_rerun {
         if saved.exists() && !args.force {
             bail!("{} exists; overwrite it with --force", saved.display());
         }
-        let bytes = save(&args.log, &saved, &args.window.of(&args.log)?)?;
+        let window = args.window.of(&args.log)?;
+        let bytes = match &args.against {
+            Some(_) if window != Window::default() => {
+                bail!(
+                    "--against shows whole flights; `tiltrotor log trim` makes logs of their parts"
+                )
+            }
+            Some(other) => save_against(&args.log, Other::Log(other), &saved)?,
+            None => save(&args.log, &saved, &window)?,
+        };
         say!("{}: {:.1} MB for rerun", saved.display(), bytes as f64 * 1e-6);
         if args.save.is_none() {
             Command::new("rerun").arg(&saved).spawn().with_context(|| {
@@ -49,6 +61,25 @@ mod with_rerun {
             })?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Draws the log and what is beside it into a recording; returns its size.
+    fn save_against(log: &Path, other: Other, saved: &Path) -> Result<u64> {
+        let drawn = draw_against(log, other, saved).map_err(|error| match (&error, other) {
+            // Which of the two logs it was is not known here.
+            (DrawError::Replay(_), Other::Log(other)) => {
+                anyhow::anyhow!("{} against {}: {error}", log.display(), other.display())
+            }
+            (DrawError::Replay(_), Other::Reflown) => anyhow::anyhow!("{}: {error}", log.display()),
+            (DrawError::View(_), _) => error.into(),
+        })?;
+        match drawn.first_difference {
+            Some(tick) => {
+                say!("first difference at tick {tick} ({:.3} s)", tick as f64 * engine::STEP_S)
+            }
+            None => say!("no difference"),
+        }
+        Ok(drawn.bytes)
     }
 
     /// Reflies the log into a recording; returns its size.
@@ -79,7 +110,7 @@ pub use with_rerun::{run, save};
 /// Says what is missing.
 #[cfg(not(feature = "rerun"))]
 pub fn run(args: &Args) -> Result<ExitCode> {
-    let Args { log, save: _, force: _, window: _ } = args;
+    let Args { log, against: _, save: _, force: _, window: _ } = args;
     anyhow::bail!(
         "{}: this program was built without `rerun`; build it with the default features, or open the \
          log itself: `rerun {0}`",

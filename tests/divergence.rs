@@ -46,8 +46,12 @@ fn other_wing() -> &'static Path {
 }
 
 fn json(log: &Path) -> Value {
-    let said = tiltrotor(&["verify", "--format", "json", text(log)]);
+    let said = in_json(log);
     serde_json::from_str(&said.out).unwrap_or_else(|why| panic!("{why}: {said}"))
+}
+
+fn in_json(log: &Path) -> Said {
+    tiltrotor(&["verify", "--format", "json", text(log)])
 }
 
 #[test]
@@ -142,8 +146,8 @@ fn the_growth_is_told_from_second_to_second() {
 
 #[test]
 fn the_report_for_programs_has_every_bit() {
-    let log = forged("json", |log| flip_state_bit(log, 1234, "plant.velocity_mps.x"));
-    let report = json(&log);
+    let file = forged("json", |log| flip_state_bit(log, 1234, "plant.velocity_mps.x"));
+    let report = json(&file);
     assert_eq!((&report["version"], &report["status"]), (&1.into(), &1.into()));
     let log = &report["logs"][0];
     assert_eq!(log["outcome"], "diverged");
@@ -159,8 +163,9 @@ fn the_report_for_programs_has_every_bit() {
     for side in ["recorded", "reflown"] {
         let hex = divergence[side]["hex"].as_str().expect("bits").trim_start_matches("0x");
         let bits = u64::from_str_radix(hex, 16).expect("hexadecimal");
-        let value = divergence[side]["value"].as_f64().expect("a number");
-        assert_eq!(value.to_bits(), bits, "{side}: {report:#}");
+        // As it is written: the reader used here is an ULP off now and then.
+        let written = format!("\"value\": {:?}", f64::from_bits(bits));
+        assert!(in_json(&file).out.contains(&written), "{written}, {side}: {report:#}");
     }
 }
 

@@ -30,7 +30,7 @@ const QUIET: Duration = Duration::from_millis(10);
 const LOOK_BACK: Duration = Duration::from_millis(600);
 /// How long the canary sleeps.
 const NAP: Duration = Duration::from_millis(5);
-/// Kills.
+/// Kills; `TILTROTOR_KILLS` asks for more.
 const KILLS: u64 = 20;
 /// Flights at a time.
 const AT_A_TIME: u64 = 2;
@@ -171,14 +171,16 @@ fn a_killed_flight_loses_a_quarter_of_a_second_at_most_and_the_rest_is_exact() {
     let place = folder("kill");
     let canary = Canary::start();
     let seed = SystemTime::now().duration_since(UNIX_EPOCH).expect("after 1970").as_secs();
-    println!("seed {seed}");
+    let kills = std::env::var("TILTROTOR_KILLS").ok().and_then(|kills| kills.parse().ok());
+    let kills: u64 = kills.unwrap_or(KILLS);
+    println!("seed {seed}, {kills} kills");
     let wrong = Mutex::new(Vec::new());
     thread::scope(|scope| {
         for lane in 0..AT_A_TIME {
             let (place, canary, wrong) = (&place, &canary, &wrong);
             scope.spawn(move || {
                 let mut dice = Dice(seed + lane);
-                for number in 0..KILLS / AT_A_TIME {
+                for number in 0..kills.div_ceil(AT_A_TIME) {
                     let alive = Duration::from_millis(300 + dice.below(1200));
                     let log = place.join(format!("{lane}-{number}.mcap"));
                     if let Err(what) = kill_after(alive, log, canary) {

@@ -174,7 +174,10 @@ const TABLES: &[(&str, &[&str])] = &[
     ("mach_0_6", &["beta_rad"]),
     ("rudder_by_mach", &["mach"]),
     ("rotor_sidewash", &["airspeed_mps", "beta_rad"]),
-    ("fuselage_sidewash", &["alpha_rad", "beta_rad"]),
+    ("flap_0", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
+    ("flap_20", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
+    ("flap_40", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
+    ("flap_75", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
 ];
 
 /// What accompanies a sourced number's value.

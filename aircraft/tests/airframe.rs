@@ -142,7 +142,14 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
     let settled = horizontal_stabilizer::State {
         downwash_rad: xv15.horizontal_stabilizer.downwash(&tail_inputs),
     };
-    let fin_inputs = vertical_stabilizers::Inputs { motion, mach, rudder_rad: 0.0 };
+    let fin_inputs = vertical_stabilizers::Inputs {
+        motion,
+        mach,
+        mast_tilt_rad: 0.0,
+        flap_rad,
+        pressure_ratio: xv15.horizontal_stabilizer.pressure_ratio_at(0.0, &motion),
+        rudder_rad: 0.0,
+    };
     Loads {
         fuselage: fuselage::fuselage(
             &xv15.fuselage,
@@ -287,12 +294,14 @@ fn val_tail_has_the_loads_of_the_trim_printouts() {
     assert_eq!(missed, [""; 0]);
 }
 
-/// The validation plan gives the fins no band: their drag is 9 lb at most. Its sign at 40 kt comes from
-/// the printed sidewash factor of −.5.
+/// The validation plan gives the fins no band: their drag is 9 lb at most. Three digits of three tables.
+const FIN_TOLERANCE: f64 = 0.03;
+
+/// Its sign at 40 kt comes from the printed sidewash factor of −.5.
 #[test]
-fn val_fins_push_forward_at_40_kt_as_in_the_trim_printouts() {
+fn val_fins_have_the_drag_of_the_trim_printouts() {
     let published = [2.227, -1.595, -4.662, -8.512];
     let ours = all(|loads| loads.fins).map(|load| load.force_n.x / LBF);
     println!("fins X: published {published:?} lb, ours {ours:.2?} lb");
-    assert!(ours.iter().zip(published).all(|(ours, published)| ours * published > 0.0));
+    assert!(ours.iter().zip(published).all(|(ours, lb)| (ours / lb - 1.0).abs() < FIN_TOLERANCE));
 }

@@ -83,7 +83,19 @@ fn val_coefficients_at_tabulated_points_are_the_printed_ones() {
         reads(fins.slow_side_force(beta * DEG, rudder * DEG), printed);
     }
     reads(fins.rotor_sidewash.at(40.0 * KT, 0.0), -0.5);
-    reads(fins.fuselage_sidewash.at(13.0 * DEG, 12.0 * DEG), 0.622);
+    for (flap, tilt, alpha, beta, printed) in [
+        (0.0, 90.0, 13.0, 12.0, 0.622),
+        (0.0, 30.0, 0.0, 2.0, 1.248),
+        (20.0, 30.0, 13.0, 16.0, 0.50),
+        (40.0, 0.0, -3.0, 8.0, 1.26),
+        (40.0, 60.0, 7.0, 35.0, 0.908),
+        (75.0, 0.0, -3.0, 0.0, 1.8),
+        (75.0, 90.0, 28.0, 90.0, 1.0),
+    ] {
+        let flap = Flap::new(flap * DEG);
+        let ours = fins.fuselage_sidewash.at(flap, tilt * DEG, alpha * DEG, beta * DEG);
+        reads(ours, printed);
+    }
 }
 
 /// Of what pylons across the flow add, the cube of the sine of their angle to it is left: at 60° of
@@ -199,6 +211,7 @@ fn every_table_gives_back_every_number_it_holds() {
     all(&xv15.rotor_wake.tail_ratio);
     all(&xv15.horizontal_stabilizer.downwash_rad);
     all(&xv15.horizontal_stabilizer.pressure_ratio);
+    xv15.vertical_stabilizers.fuselage_sidewash.columns().into_iter().for_each(all);
     let (wing, tail, fins) =
         (&xv15.wing_pylon, &xv15.horizontal_stabilizer, &xv15.vertical_stabilizers);
     for table in [
@@ -208,7 +221,6 @@ fn every_table_gives_back_every_number_it_holds() {
         &tail.lift,
         &fins.side_force,
         &fins.rotor_sidewash,
-        &fins.fuselage_sidewash,
     ] {
         for (x, row) in table.x.iter().zip(&table.z) {
             for (y, &z) in table.y.iter().zip(row) {
@@ -361,7 +373,14 @@ fn the_fins_turn_the_nose_into_the_wind() {
             angular_rate_radps: Vec3::zero(),
             density_kg_per_m3: 0.963,
         };
-        let inputs = vertical_stabilizers::Inputs { motion, mach: 0.31, rudder_rad: 0.0 };
+        let inputs = vertical_stabilizers::Inputs {
+            motion,
+            mach: 0.31,
+            mast_tilt_rad: 0.5 * PI,
+            flap_rad: 0.0,
+            pressure_ratio: 1.0,
+            rudder_rad: 0.0,
+        };
         vertical_stabilizers::fin(&xv15.vertical_stabilizers, &inputs).moment_n_m.z
     };
     let per_rad = (fins(0.02) - fins(-0.02)) / 0.02 / 1.355_818;

@@ -26,13 +26,16 @@
 //! - **PETERS**: Pitt and Peters, *Theoretical Prediction of Dynamic-Inflow Derivatives*, Vertica 5,
 //!   1981. The three-state inflow.
 //! - **GESSOW**: Gessow, Myers, *Aerodynamics of the Helicopter*, 1952. Inflow annulus by annulus.
+//! - **BETZ**: Prandtl's appendix to Betz, *Schraubenpropeller mit geringstem Energieverlust*, 1919,
+//!   as an end of lift: Johnson, *Helicopter Theory*, §2-6. Recalled with confidence.
 //! - **LEISHMAN**: Leishman, *Principles of Helicopter Aerodynamics*, 2nd ed. Mean inflow in the vortex
 //!   ring state, a fit to measurements; recalled.
 //! - **TP213477**: Johnson, *Model for Vortex Ring State Influence on Rotor Flight Dynamics*, NASA
 //!   TP-2005-213477, 2005. Where the vortex ring begins to be felt (Vc/vh = -0.2) and where it takes the
 //!   damping of heave away (-0.45); recalled.
-//! - **SNEL**: Snel, Houwink, Bosschers, *Sectional Prediction of Lift Coefficients on Rotating Wind
-//!   Turbine Blades in Stall*, ECN-C-93-052, 1994. Rotational stall delay; recalled.
+//! - **CORRIGAN**: Corrigan and Schillings, *Empirical Model for Stall Delay due to Rotation*, AHS
+//!   Aeromechanics Specialists Conference, 1994. Rotational stall delay; its constants as Koning, NASA
+//!   CR-2016-219086, has them for this rotor, through a transcription by others.
 //! - **JOHNSON**: Johnson, *Helicopter Theory*, 1980. Gimbal and coning in multiblade coordinates.
 //! - **KORN**: Korn's rule with Lock's fourth power, as in Mason, *Configuration Aerodynamics*. Drag
 //!   divergence of a section; recalled.

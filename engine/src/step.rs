@@ -487,8 +487,18 @@ fn fins(
     mach: f64,
 ) -> Pair<Load> {
     let right_rad = surfaces.rudder_right_rad;
+    let (mast_tilt_rad, flap_rad) = (surfaces.mast_tilt_rad.mean(), surfaces.flap_rad);
+    let pressure_ratio =
+        aircraft.horizontal_stabilizer.pressure_ratio_at(mast_tilt_rad, &motions.right);
     motions.zip(Pair { left: -right_rad, right: right_rad }).map(|(motion, rudder_rad)| {
-        let inputs = vertical_stabilizers::Inputs { motion, mach, rudder_rad };
+        let inputs = vertical_stabilizers::Inputs {
+            motion,
+            mach,
+            mast_tilt_rad,
+            flap_rad,
+            pressure_ratio,
+            rudder_rad,
+        };
         vertical_stabilizers::fin(&aircraft.vertical_stabilizers, &inputs)
     })
 }

@@ -234,10 +234,11 @@ pub fn control(aircraft: &Aircraft, book: &mut Book) {
          The table does not agree with itself, so that nobody can with all of it. An acceleration S against a \
          damping D turns by S/D·(1 − (1 − exp(−D))/D) in a second: roll off, .471 and .77 make 10.6 deg, not \
          6.6; yaw on, .328 makes 9.4 deg with no damping at all, not 15.0; roll on, .489 and 1.82 make 8.3 \
-         deg, not 11.5. Damping in pitch and roll: 1975 has no in-plane force of a rotor that turns (Amer), \
-         which takes nearly half of what the tilt of a loaded proprotor gives; with the tilt alone ours \
-         were .8 and .7 1/s. Roll sensitivity: the published gearing, .625 deg/in, at the measured thrust \
-         slope makes .3 rad/s²/in.",
+         deg, not 11.5. Damping in pitch and roll is that of \
+         ideal rotors: without the in-plane force of a rotor that turns (Amer), which takes nearly half of \
+         what the tilt of a loaded proprotor gives, and without the losses of its inflow, ours were .9 and \
+         .8 1/s. Roll sensitivity: the published gearing, .625 deg/in, at the measured thrust \
+         slope and 565 rpm makes .27 rad/s²/in.",
     );
     let aircraft = &of_1975(aircraft);
     let axes = ["pitch", "roll", "yaw"];

@@ -46,8 +46,11 @@ fn on_stand(aircraft: &Aircraft, tip_mps: f64, collective_deg: f64) -> Stand {
 
 /// The stand with this thrust.
 fn on_stand_at(aircraft: &Aircraft, tip_mps: f64, c_t: f64) -> Option<Stand> {
-    let (mut low, mut high) = (-5.0, 25.0);
-    for _ in 0..22 {
+    // The least collective: beyond the stall a larger one gives less again.
+    let reached =
+        (-5..=25).map(f64::from).find(|&deg| on_stand(aircraft, tip_mps, deg).c_t >= c_t)?;
+    let (mut low, mut high) = (reached - 1.0, reached);
+    for _ in 0..18 {
         let middle = 0.5 * (low + high);
         if on_stand(aircraft, tip_mps, middle).c_t < c_t {
             low = middle;

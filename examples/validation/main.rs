@@ -7,6 +7,7 @@
 mod airframe;
 mod book;
 mod dynamics;
+mod flown;
 mod hover;
 mod performance;
 mod pictures;

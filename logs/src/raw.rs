@@ -89,7 +89,7 @@ impl RawReader {
                 self.read_summary()?;
                 return Ok(None);
             }
-            let raw = match mcap::parse_record(opcode, data)? {
+            let raw = match parse_record(opcode, data)? {
                 Record::Header(header) => {
                     Raw::Header { profile: header.profile, library: header.library }
                 }
@@ -134,6 +134,32 @@ impl RawReader {
         }
         Ok(())
     }
+}
+
+/// A record of its bytes. To be used instead of mcap's own, which (0.26) panics on an attachment whose
+/// record is too short for its name and media type.
+pub(crate) fn parse_record(opcode: u8, data: &[u8]) -> Result<Record<'_>, McapError> {
+    let available = data.len() as u64;
+    match attachment_frame(data).filter(|_| opcode == op::ATTACHMENT) {
+        Some(header) if header > available => {
+            Err(McapError::BadAttachmentLength { header, available })
+        }
+        _ => mcap::parse_record(opcode, data),
+    }
+}
+
+/// Bytes of an attachment's record beside the attachment itself, as far as its lengths can be read:
+/// beyond that mcap notices.
+fn attachment_frame(record: &[u8]) -> Option<u64> {
+    const TIMES: usize = 2 * size_of::<u64>();
+    const DATA_LENGTH: usize = size_of::<u64>();
+    const CRC: usize = size_of::<u32>();
+    let mut at = TIMES;
+    for _name_and_media_type in 0..2 {
+        let length = record.get(at..)?.first_chunk()?;
+        at = at.checked_add(size_of::<u32>() + u32::from_le_bytes(*length) as usize)?;
+    }
+    Some((at.checked_add(DATA_LENGTH + CRC)?) as u64)
 }
 
 fn options() -> LinearReaderOptions {

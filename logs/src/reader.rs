@@ -17,7 +17,7 @@ use crate::compact::Open;
 use crate::compact::expander::Expander;
 use crate::fields::{Field, fields};
 use crate::index::Index;
-use crate::raw::Raw;
+use crate::raw::{Raw, parse_record};
 use crate::records::{
     Chain, EVENTS, EventRecord, FORMAT_VERSION, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE,
     StateRecord, TIMING, TimingRecord, first_digest,
@@ -80,6 +80,8 @@ pub struct FlightReader {
     pending: Pending,
     /// Tick and digest of the last state read.
     last: (u64, u64),
+    /// Whether every digest so far follows from the one before.
+    unbroken: bool,
     /// The writer's last word.
     closing: Option<LastWord>,
     /// Events in the order they were recorded.
@@ -195,6 +197,7 @@ impl FlightReader {
                         initial: first.state,
                         until_tick: None,
                         intact: digest == first.digest,
+                        unbroken: digest == first.digest,
                         chain: Chain::from(first.digest),
                         pending: Pending::default(),
                         last: (first.state.tick, first.digest),
@@ -291,11 +294,10 @@ impl FlightReader {
         if closing.last != self.last {
             return Ok(Ending::Truncated);
         }
-        // The chain says that the flight is what was flown: it is something beside it.
-        // What a compacted log says is guarded by a hash of its own, and what it does not say is made
-        // again.
-        let looked_at = !self.records.sought && !self.is_compacted();
-        if looked_at && closing.messages != self.records.roll_call.digest() {
+        // When the chain says that the flight is what was flown, it is something beside it. What a
+        // compacted log says is guarded by a hash of its own, and what it does not say is made again.
+        let all_read = self.unbroken && !self.records.sought && !self.is_compacted();
+        if all_read && closing.messages != self.records.roll_call.digest() {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, or the order \
                  or time of any) is not as written, though every checksum is right: a tool that \
@@ -327,6 +329,7 @@ impl FlightReader {
         let mut state_message = cdr::HEADER.to_vec();
         state_message.extend_from_slice(&data[cdr::HEADER.len() + size_of::<u64>()..]);
         let chained = self.chain.close(&state_message) == record.digest;
+        self.unbroken &= chained;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
         self.last = (tick, record.digest);
@@ -747,11 +750,7 @@ impl Records {
                     self.reader.notify_read(read);
                 }
                 LinearReadEvent::Record { data, opcode } => {
-                    if opcode == mcap::records::op::ATTACHMENT && !attachment_fits(data) {
-                        self.ending = Ending::Damaged("a file's record is too short for it".into());
-                        return Ok(None);
-                    }
-                    let record = mcap::parse_record(opcode, data)?;
+                    let record = parse_record(opcode, data)?;
                     let part = part_of(&record, self.part);
                     if let Some(what) = misplaced(&record, part, self.part) {
                         self.ending = Ending::Damaged(what);
@@ -813,24 +812,6 @@ impl Records {
         }
         self.topics.insert(channel.id, channel.topic);
     }
-}
-
-/// Whether an attachment's name, media type and checksum lie inside its record: mcap 0.26 takes that
-/// for granted.
-fn attachment_fits(record: &[u8]) -> bool {
-    const TIMES: usize = 2 * size_of::<u64>();
-    const DATA_LENGTH: usize = size_of::<u64>();
-    const CRC: usize = size_of::<u32>();
-    let mut at = TIMES;
-    for _name_and_media_type in 0..2 {
-        let Some(length) = record.get(at..).and_then(|rest| rest.first_chunk()) else {
-            return false;
-        };
-        at = at
-            .saturating_add(size_of::<u32>())
-            .saturating_add(u32::from_le_bytes(*length) as usize);
-    }
-    at.saturating_add(DATA_LENGTH + CRC) <= record.len()
 }
 
 /// Keeps the last bytes, as many as the magic number has.

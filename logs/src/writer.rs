@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Seek};
 use std::path::Path;
 
 use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Outputs, State};
 use mcap::records::MessageHeader;
+use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
@@ -54,7 +55,8 @@ struct Channels {
 
 /// A flight being written.
 pub struct FlightWriter {
-    mcap: Writer<BufWriter<File>>,
+    /// Never seeks: a pipe will do.
+    mcap: Writer<NoSeek<BufWriter<File>>>,
     channels: Channels,
     topics: BTreeMap<u16, &'static str>,
     chain: Chain,
@@ -130,7 +132,7 @@ impl FlightWriter {
             .library(concat!("tiltrotor ", env!("CARGO_PKG_VERSION")))
             .chunk_size(Some(CHUNK_BYTES))
             .disable_seeking(true)
-            .create(BufWriter::new(file))?;
+            .create(NoSeek::new(BufWriter::new(file)))?;
         let mut facts = identity.0.clone();
         seal(&mut facts);
         mcap.write_metadata(&mcap::records::Metadata { name: METADATA.into(), metadata: facts })?;
@@ -322,8 +324,10 @@ impl FlightWriter {
         self.mcap
             .write_metadata(&mcap::records::Metadata { name: CLOSING.into(), metadata: facts })?;
         self.mcap.finish()?;
-        let file = self.mcap.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
-        Ok(Closed { bytes: file.metadata()?.len(), digest })
+        let mut whole = self.mcap.into_inner();
+        let bytes = whole.stream_position()?;
+        whole.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?;
+        Ok(Closed { bytes, digest })
     }
 
     /// Writes a recorded struct; its bytes stay in `self.message`.

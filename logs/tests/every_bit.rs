@@ -1,7 +1,8 @@
 //! Every bit of a small log, flipped one at a time, and the log cut at every byte: found, each of them,
 //! by the reader alone, before anything is reflown.
 //!
-//! The whole runs here. `TILTROTOR_EVERY_BIT_STRIDE=7` looks at every seventh bit only.
+//! The whole runs here. `TILTROTOR_EVERY_BIT_STRIDE=7` looks at every seventh bit only, and
+//! `TILTROTOR_EVERY_BIT_LOG=FILE` flips the bits of another log, a real one (`tests/integrity.sh`).
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -170,7 +171,7 @@ fn every_bit(log: &[u8], judge: impl Fn(usize, Vec<u8>) -> Option<String> + Sync
                         let what = format!("bit {} of byte {}: {what}", bit % 8, bit / 8);
                         wrong.lock().expect("the list").push(what);
                     }
-                    if bit % 1024 == 0 {
+                    if bit.is_multiple_of(1024) {
                         let more_kib = peak_kib().saturating_sub(before_kib);
                         assert!(more_kib < MEMORY_KIB_MAX, "{more_kib} KiB, near bit {bit}");
                     }
@@ -195,7 +196,10 @@ fn found(seen: &Seen) -> bool {
 
 #[test]
 fn every_flipped_bit_of_a_closed_log_is_found() {
-    let (log, _) = small_log("closed.mcap");
+    let log = match std::env::var_os("TILTROTOR_EVERY_BIT_LOG") {
+        Some(log) => fs::read(log).expect("a log"),
+        None => small_log("closed.mcap").0,
+    };
     let verdicts = Mutex::new(BTreeMap::<String, usize>::new());
     every_bit(&log, |_, bytes| {
         let seen = read(bytes);

@@ -71,14 +71,12 @@ impl Names {
         b: &'a [u8],
     ) -> impl Iterator<Item = Difference<'a>> {
         let words = |message: &'a [u8]| message[HEADER.len()..].chunks_exact(8);
-        self.list.iter().enumerate().zip(words(a).zip(words(b))).filter_map(
-            |((index, name), (a, b))| {
-                (a != b).then(|| Difference {
-                    name,
-                    index,
-                    a: value(name.kind, a),
-                    b: value(name.kind, b),
-                })
+        self.list.iter().enumerate().zip(words(a).zip(words(b))).filter(|(_, (a, b))| a != b).map(
+            |((index, name), (a, b))| Difference {
+                name,
+                index,
+                a: value(name.kind, a),
+                b: value(name.kind, b),
             },
         )
     }
@@ -113,7 +111,7 @@ fn value(kind: Value, word: &[u8]) -> Value {
 }
 
 /// A path without axes and sides.
-fn group_of(path: &str) -> String {
+pub(crate) fn group_of(path: &str) -> String {
     const PARTS: [&str; 8] = ["x", "y", "z", "w", "left", "right", "nose", "main"];
     path.split('.').filter(|part| !PARTS.contains(part)).collect::<Vec<_>>().join(".")
 }

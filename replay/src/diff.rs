@@ -191,30 +191,30 @@ pub enum Which {
 }
 
 /// One tick of a log; the first one is the state at the start, which nothing led to.
-struct At {
-    tick: u64,
-    state: Vec<u8>,
-    led: Option<(Vec<DeviceEvent>, InputsRecord)>,
+pub(crate) struct At {
+    pub(crate) tick: u64,
+    pub(crate) state: Vec<u8>,
+    pub(crate) led: Option<(Vec<DeviceEvent>, InputsRecord)>,
 }
 
 /// A log being read.
-struct Cursor {
-    reader: FlightReader,
+pub(crate) struct Cursor {
+    pub(crate) reader: FlightReader,
     start_tick: u64,
     last: (u64, u64),
     disorder: Option<String>,
-    now: Option<At>,
+    pub(crate) now: Option<At>,
 }
 
 impl Cursor {
-    fn open(path: &Path) -> Result<Self, LogError> {
+    pub(crate) fn open(path: &Path) -> Result<Self, LogError> {
         let reader = crate::refly::open(path)?;
         let (tick, state) = (reader.initial.tick, cdr::encode(&reader.initial)?);
         let now = Some(At { tick, state, led: None });
         Ok(Self { reader, start_tick: tick, last: (tick, 0), disorder: None, now })
     }
 
-    fn advance(&mut self) {
+    pub(crate) fn advance(&mut self) {
         self.now = match self.reader.next_tick() {
             Ok(Some(tick)) => {
                 self.last = (tick.record.state.tick, tick.record.digest);

@@ -222,7 +222,7 @@ impl Divergence {
         for stage in found.iter().filter_map(|(stage, _)| *stage) {
             count(&mut stages, stage);
         }
-        let mut growth = Growth::new(at.tick)?;
+        let mut growth = Growth::new(at.tick, &first.name.path)?;
         growth.add(at.tick, at.recorded, at.reflown);
         Ok(Some(Self {
             tick: at.tick,

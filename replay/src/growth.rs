@@ -7,7 +7,7 @@ use engine::{STEP_S, State};
 use logs::LogError;
 use logs::units::unit_of;
 
-use crate::compare::Names;
+use crate::compare::{Names, group_of};
 use crate::divergence::when;
 
 /// When it is looked at, in seconds after the first difference.
@@ -50,9 +50,9 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// The quantity that is most representable numbers apart.
-    pub fn farthest(&self) -> Option<&GroupDifference> {
-        self.groups.iter().max_by_key(|group| group.ulps)
+    /// A quantity, if it differs.
+    pub fn group(&self, group: &str) -> Option<&GroupDifference> {
+        self.groups.iter().find(|known| known.group == group)
     }
 }
 
@@ -62,6 +62,8 @@ pub struct Growth {
     names: Names,
     /// The first difference.
     pub first_tick: u64,
+    /// The quantity in which it is.
+    pub first_group: String,
     /// The last tick compared.
     pub last_tick: u64,
     /// How many ticks differ, of those compared.
@@ -75,14 +77,16 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Of flights that are the same until `first_tick`, whose states are added from there on.
+    /// Of flights that are the same until `first_tick`, where the field at `path` is the first that
+    /// differs; their states are added from there on.
     ///
     /// # Errors
     /// Never: a state is recordable.
-    pub fn new(first_tick: u64) -> Result<Self, LogError> {
+    pub fn new(first_tick: u64, path: &str) -> Result<Self, LogError> {
         Ok(Self {
             names: Names::of::<State>()?,
             first_tick,
+            first_group: group_of(path),
             last_tick: first_tick,
             differing_ticks: 0,
             same_from: None,
@@ -178,19 +182,16 @@ impl fmt::Display for Growth {
         write!(f, "  growth")?;
         line(f, "after", &|moment| format!("{} s", moment.after_s))?;
         line(f, "fields that differ", &|moment| moment.fields.to_string())?;
-        line(f, "most apart, ULP", &|moment| {
-            let farthest = moment.farthest().map_or(0, |group| group.ulps);
-            if farthest < 1_000_000 {
-                farthest.to_string()
-            } else {
-                format!("{:.1e}", farthest as f64)
-            }
+        line(f, &format!("{}, ULP", self.first_group), &|moment| {
+            let ulps = moment.group(&self.first_group).map_or(0, |group| group.ulps);
+            if ulps < 1_000_000 { ulps.to_string() } else { format!("{:.1e}", ulps as f64) }
         })?;
-        for group in SHOWN {
+        let first = Some(self.first_group.as_str()).filter(|first| !SHOWN.contains(first));
+        for group in first.into_iter().chain(SHOWN) {
             let unit = unit_of(group);
             let name = if unit.is_empty() { group.to_string() } else { format!("{group}, {unit}") };
             line(f, &name, &|moment| {
-                let found = moment.groups.iter().find(|known| known.group == group);
+                let found = moment.group(group);
                 found.map_or("0".into(), |found| format!("{:.2e}", found.absolute))
             })?;
         }
@@ -215,7 +216,7 @@ mod tests {
 
     /// Velocities that part with a doubling time of half a second.
     fn parting(ticks: u64) -> Growth {
-        let mut growth = Growth::new(100).expect("recordable");
+        let mut growth = Growth::new(100, "plant.velocity_mps.y").expect("recordable");
         let a = cdr::encode(&State::default()).expect("bytes");
         for tick in 100..100 + ticks {
             let mut state = State::default();

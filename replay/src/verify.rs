@@ -111,18 +111,19 @@ impl Verdict {
         if let Some(disorder) = &self.disorder {
             return ("disorder", disorder.clone());
         }
-        match &self.ending {
-            Ending::Damaged(why) => ("damaged", format!("the file is damaged: {why}")),
-            Ending::Truncated => (
+        match (&self.ending, &self.recovered) {
+            (Ending::Damaged(why), _) => ("damaged", format!("the file is damaged: {why}")),
+            (Ending::Truncated, Some(recovered)) => ("recovered", recovered.clone()),
+            (Ending::Truncated, None) => (
                 "never_closed",
                 "the log ends without having been closed: the flight was killed or the file was \
                  cut, and what came after is lost"
                     .into(),
             ),
-            Ending::Closed if self.windowed => {
+            (Ending::Closed, _) if self.windowed => {
                 ("window", "there the part ends that was asked for".into())
             }
-            Ending::Closed => ("closed", "the log ends as its writer closed it".into()),
+            (Ending::Closed, _) => ("closed", "the log ends as its writer closed it".into()),
         }
     }
 }
@@ -278,9 +279,9 @@ impl fmt::Display for Verdict {
         }
         let more = if self.ending == Ending::Closed { "" } else { " or more" };
         let (exact, last) = (self.exact_tick(), self.last_tick());
-        let (_, why) = self.stopped();
+        let (stopped, why) = self.stopped();
         write!(f, "exact up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
-        if let Some(recovered) = &self.recovered {
+        if let Some(recovered) = self.recovered.as_ref().filter(|_| stopped != "recovered") {
             write!(f, "\n{recovered}")?;
         }
         if let Some(divergence) = &self.divergence {

@@ -17,42 +17,41 @@
 //! /map                      the track in latitude and longitude
 //! /plots, /modes, /events   see `plots` and `layout`
 //! ```
+//! Two flights in one recording ([`draw_against`]) are `/recorded/…` and `/reflown/…` with all of the above,
+//! and between them
+//! ```text
+//! /delta/plots              reflown less recorded, of everything that is plotted
+//! /delta/growth             logarithm of the difference in position, velocity, attitude, rates
+//! /delta/apart              a line in the world from one aircraft to the other
+//! ```
 //! Times are `tick` and `sim_time`, both exact; nothing carries the wall clock. An `.rrd` is a
 //! rendering for the eye, in single precision where rerun has nothing else: the log is the truth.
 
+mod against;
 mod airframe;
+mod canvas;
 mod file;
 mod layout;
 mod plots;
 mod scene;
 mod scenery;
+mod track;
 
 use std::path::{Path, PathBuf};
 
-use engine::frames::{Ned, Vec3};
+use engine::Outputs;
 use engine::pair::Pair;
-use engine::{Outputs, STEP_NS};
+use rerun::RecordingStreamError;
 use rerun::external::re_log_encoding::rrd::EncodeError;
 use rerun::sink::SinkFlushError;
-use rerun::{
-    LineStrips3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError,
-    RecordingStreamResult, Scalars, StateChange, TextLog, TimeColumn,
-};
 
-use file::RrdFile;
-use plots::{MODES, PLOTS};
-use scene::{Columns, PathPoint, moving_columns, point, send_path, send_still_life};
+pub use against::{DrawError, Drawn, Other, draw_against};
+use canvas::Canvas;
+use layout::Kind;
+use track::{ALONE, Track};
 
 /// Of this many ticks one is drawn: 50 Hz.
 const TICKS_PER_ROW: u64 = 5;
-/// Rows gathered before they are written: ten seconds, about a megabyte.
-const ROWS_PER_CHUNK: usize = 500;
-/// Of this many rows one makes a piece of the flown line: 10 Hz.
-const ROWS_PER_PIECE: usize = 5;
-/// The path is thinned by half when it has more points than this.
-const PATH_POINTS_MAX: usize = 8192;
-/// Ticks of the timeline `tick`.
-const TICK: &str = "tick";
 /// Nanoseconds of the timeline that the viewer opens on.
 const SIM_TIME: &str = "sim_time";
 
@@ -116,176 +115,38 @@ impl Level {
 /// never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
 /// the whole path.
 pub struct FlightView {
-    recording: RecordingStream,
-    file: RrdFile,
-    path: PathBuf,
-    rows: Vec<Outputs>,
-    flown_to_m: Option<Vec3<Ned>>,
-    modes: Vec<Option<&'static str>>,
-    trail: Vec<PathPoint>,
-    trail_spacing_m: f64,
-    error: Option<RecordingStreamError>,
+    canvas: Canvas,
+    track: Track,
 }
 
 impl FlightView {
     /// Begins the file at `path`, with everything that does not move and the viewer's layout.
     pub fn new(path: &Path, title: &str) -> Result<Self, ViewError> {
-        let file = RrdFile::create(path)
-            .map_err(|source| ViewError::Write { path: path.into(), source })?;
-        let recording = begin(&file, title)
-            .map_err(|source| ViewError::Draw { path: path.into(), source: Box::new(source) })?;
-        Ok(Self {
-            recording,
-            file,
-            path: path.into(),
-            rows: Vec::with_capacity(ROWS_PER_CHUNK),
-            flown_to_m: None,
-            modes: vec![None; MODES.len()],
-            trail: Vec::new(),
-            trail_spacing_m: 1.0,
-            error: None,
-        })
+        let canvas = Canvas::new(path, title, Kind::Flight, &[&ALONE])?;
+        Ok(Self { canvas, track: Track::new(&ALONE) })
     }
 
     /// Takes what a step gave. Call it every tick; one in five is drawn.
     pub fn push(&mut self, outputs: &Outputs) {
-        if !outputs.tick.is_multiple_of(TICKS_PER_ROW) {
-            return;
-        }
-        self.follow(outputs);
-        self.show_modes(outputs);
-        self.rows.push(*outputs);
-        if self.rows.len() >= ROWS_PER_CHUNK {
-            self.flush();
-        }
+        self.track.push(&mut self.canvas, outputs);
     }
 
     /// Notes an event.
     pub fn event(&mut self, tick: u64, level: Level, text: &str) {
-        let columns = TextLog::new(text)
-            .with_level(level.name())
-            .columns_of_unit_batches()
-            .map(Vec::from_iter);
-        self.send("events", &times(&[tick]), columns);
+        self.canvas.event(tick, level, text);
     }
 
     /// Writes what is left and closes the file; its size in bytes.
     pub fn finish(mut self) -> Result<u64, ViewError> {
-        self.flush();
-        let ended =
-            send_path(&self.recording, &self.trail).and_then(|()| layout::send(&self.recording, 2));
-        if let Err(source) = ended {
-            self.error.get_or_insert(source);
-        }
-        // Waits until everything is in the file.
-        let flushed = self.recording.flush_blocking();
-        let Self { file, path, error, .. } = self;
-        let closed = file.close().and_then(|()| Ok(std::fs::metadata(&path)?.len()));
-        match (closed, error, flushed) {
-            (Err(source), ..) => Err(ViewError::Write { path, source }),
-            (_, Some(source), _) => Err(ViewError::Draw { path, source: Box::new(source) }),
-            (.., Err(source)) => Err(ViewError::Flush { path, source }),
-            (Ok(bytes), None, Ok(())) => Ok(bytes),
-        }
+        self.track.finish(&mut self.canvas);
+        self.canvas.finish()
     }
-
-    /// Adds to the path when the aircraft has moved on.
-    fn follow(&mut self, outputs: &Outputs) {
-        let moved_m = self.trail.last().map(|last| (outputs.position_m - last.position_m).norm());
-        if moved_m.is_some_and(|moved_m| moved_m < self.trail_spacing_m) {
-            return;
-        }
-        self.trail.push(PathPoint::new(outputs));
-        if self.trail.len() > PATH_POINTS_MAX {
-            self.trail = self.trail.iter().copied().step_by(2).collect();
-            self.trail_spacing_m *= 2.0;
-        }
-    }
-
-    /// Writes the modes that changed.
-    fn show_modes(&mut self, outputs: &Outputs) {
-        for (index, mode) in MODES.iter().enumerate() {
-            let value = (mode.of)(outputs);
-            if self.modes[index] == Some(value) {
-                continue;
-            }
-            self.modes[index] = Some(value);
-            let columns = StateChange::single(value).columns_of_unit_batches().map(Vec::from_iter);
-            self.send(mode.path, &times(&[outputs.tick]), columns);
-        }
-    }
-
-    /// Writes the rows gathered.
-    fn flush(&mut self) {
-        let rows = std::mem::replace(&mut self.rows, Vec::with_capacity(ROWS_PER_CHUNK));
-        if rows.is_empty() {
-            return;
-        }
-        let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
-        let times = times(&ticks);
-        for (entity, columns) in moving_columns(&rows) {
-            self.send(entity, &times, columns);
-        }
-        for plot in PLOTS {
-            let scalars = Scalars::new(rows.iter().map(plot.of));
-            self.send(plot.path, &times, scalars.columns_of_unit_batches().map(Vec::from_iter));
-        }
-        self.send_flown(&rows);
-    }
-
-    /// The line behind the aircraft, piece by piece, so that the viewer can show the last of them.
-    fn send_flown(&mut self, rows: &[Outputs]) {
-        let mut ticks = Vec::new();
-        let mut pieces = Vec::new();
-        for row in rows.iter().step_by(ROWS_PER_PIECE) {
-            let from_m = self.flown_to_m.replace(row.position_m).unwrap_or(row.position_m);
-            ticks.push(row.tick);
-            pieces.push([point(from_m), point(row.position_m)]);
-        }
-        let columns = LineStrips3D::new(pieces).columns_of_unit_batches().map(Vec::from_iter);
-        self.send("world/flown", &times(&ticks), columns);
-    }
-
-    fn send(&mut self, entity: &str, times: &[TimeColumn], columns: Columns) {
-        let sent = columns.map_err(Into::into).and_then(|columns| {
-            self.recording.send_columns(entity, times.iter().cloned(), columns)
-        });
-        if let Err(error) = sent {
-            self.error.get_or_insert(error);
-        }
-    }
-}
-
-/// A recording into `file` that knows no wall clock, with everything that does not move.
-fn begin(file: &RrdFile, title: &str) -> RecordingStreamResult<RecordingStream> {
-    // Of its properties only the name is sent: rerun would add when it began.
-    let recording =
-        RecordingStreamBuilder::new("tiltrotor").enabled(true).send_properties(false).buffered()?;
-    recording.set_sink(Box::new(file.clone()));
-    recording.set_log_time_enabled(false);
-    recording.set_log_tick_enabled(false);
-    recording.send_recording_name(title)?;
-    send_still_life(&recording)?;
-    layout::send(&recording, 1)?;
-    Ok(recording)
-}
-
-/// Both timelines of some rows.
-fn times(ticks: &[u64]) -> [TimeColumn; 2] {
-    let signed = |value: u64| i64::try_from(value).unwrap_or(i64::MAX);
-    [
-        TimeColumn::new_sequence(TICK, ticks.iter().map(|&tick| signed(tick))),
-        TimeColumn::new_duration_nanos(
-            SIM_TIME,
-            ticks.iter().map(|&tick| signed(tick.saturating_mul(STEP_NS))),
-        ),
-    ]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::frames::Euler;
+    use engine::frames::{Euler, Vec3};
     use engine::math::{FRAC_PI_2, clamp, cos, ramp, sin};
     use engine::state::Geodetic;
 
@@ -383,10 +244,10 @@ mod tests {
         let mut outputs = Outputs::default();
         for step in 0..20_000_u32 {
             outputs.position_m.x = f64::from(step) * 1.5;
-            view.follow(&outputs);
+            view.track.follow(&outputs);
         }
-        assert!(view.trail.len() <= PATH_POINTS_MAX);
-        assert!(view.trail_spacing_m > 1.0);
+        assert!(view.track.trail.len() <= track::PATH_POINTS_MAX);
+        assert!(view.track.trail_spacing_m > 1.0);
     }
 
     #[test]

@@ -125,6 +125,12 @@ impl Params {
         let slow = self.downwash_rad.at(inputs.mast_tilt_rad, alpha_rad, inputs.flap_rad);
         slow / sqrt(1.0 - square(min(inputs.mach, MACH_MAX)))
     }
+
+    /// η, which the fins share.
+    pub fn pressure_ratio_at(&self, mast_tilt_rad: f64, motion: &Motion) -> f64 {
+        let whole = flow(motion.airspeed_mps, motion.density_kg_per_m3);
+        self.pressure_ratio.at(mast_tilt_rad, whole.alpha_rad, whole.speed_mps)
+    }
 }
 
 /// Load of the stabiliser, and the rate of its state.
@@ -152,7 +158,7 @@ pub fn horizontal_stabilizer(params: &Params, state: &State, inputs: &Inputs) ->
         + params.lift_by_sideslip_per_rad * min(beta, SIDESLIP_RAD_MAX);
     let drag = params.drag_by_mach.at(inputs.mach, with_elevator, params.drag.at(with_elevator));
 
-    let ratio = params.pressure_ratio.at(inputs.mast_tilt_rad, whole.alpha_rad, whole.speed_mps);
+    let ratio = params.pressure_ratio_at(inputs.mast_tilt_rad, &inputs.motion);
     let pressure_area = 0.5
         * inputs.motion.density_kg_per_m3
         * ratio

@@ -54,6 +54,12 @@ impl Flap {
         let (column, beyond) = between(&FLAP_RAD, flap_rad);
         Self { column, beyond }
     }
+
+    /// Between the two columns, by number, that it lies between.
+    pub fn blend(self, column: impl Fn(usize) -> f64) -> f64 {
+        let low = column(self.column);
+        if self.beyond > 0.0 { low + self.beyond * (column(self.column + 1) - low) } else { low }
+    }
 }
 
 /// One table over angle of attack for each flap setting.
@@ -170,8 +176,7 @@ impl Polar {
             let fast = if i == 0 { self.aeroplane_by_mach.at(mach, alpha_rad, slow) } else { slow };
             upright + level * (fast - upright)
         };
-        let low = column(flap.column);
-        if flap.beyond > 0.0 { low + flap.beyond * (column(flap.column + 1) - low) } else { low }
+        flap.blend(column)
     }
 
     /// Why a table cannot be used, if so.

@@ -7,8 +7,7 @@
 //! ∫ f dr = Σ f(r_i)·w_i        3, 2, 2 and 1 stations from the root cut-out to the tip
 //! ```
 //! # Assumptions
-//! Lift ends at the fraction B of the radius, drag at the tip. The blade is straight; its twist is
-//! the geometric one.
+//! The blade is straight; its twist is the geometric one.
 
 use serde::Deserialize;
 
@@ -18,8 +17,6 @@ use crate::table::Table1;
 
 /// Elements along a blade.
 pub const STATIONS: usize = 8;
-
-const ROOT_3: f64 = 1.732_050_807_568_877_2;
 
 /// Region, and place and weight within it on −1..1: Gauss–Legendre of 3, 2, 2 and 1 points.
 const NODES: [(usize, f64, f64); STATIONS] = [
@@ -41,8 +38,6 @@ pub struct Params {
     pub count: f64,
     /// Where the blade begins, of the radius.
     pub root_norm: f64,
-    /// B: where its lift ends, of the radius.
-    pub tip_loss_norm: f64,
     /// c over the part of the radius.
     pub blade_chord_m: Table1,
     /// Built-in twist over the part of the radius, relative to ¾ of it.
@@ -76,16 +71,25 @@ pub struct Station {
     pub area_m2: f64,
     /// c.
     pub chord_m: f64,
-    /// √3·c: with Ω/U, how much rotation holds off the stall, rooted.
-    pub turn_delay_m: f64,
-    /// Part of its area that lifts.
-    pub lifting: f64,
+    /// K − 1: how far rotation holds off the stall.
+    pub delay: f64,
+    /// Where its region begins, of the radius.
+    pub inner_norm: f64,
+    /// How wide that is.
+    pub width_norm: f64,
     /// Part of the disc's area it stands for, 2r·w/R².
     pub disc_norm: f64,
     /// Sine of the twist.
     pub sin_twist: f64,
     /// Cosine of the twist.
     pub cos_twist: f64,
+}
+
+impl Station {
+    /// Part of its area that lifts when lift ends at this part of the radius.
+    pub fn lifting(&self, tip_norm: f64) -> f64 {
+        clamp((tip_norm - self.inner_norm) / self.width_norm, 0.0, 1.0)
+    }
 }
 
 /// A blade, ready to be moved through the air.
@@ -104,17 +108,18 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade {
         let inner = if region > 0 { ends[region - 1] } else { params.root_norm };
         let width = ends[region] - inner;
         let x = inner + 0.5 * width * (1.0 + at);
-        let width_norm = 0.5 * width * weight;
+        let weight_norm = 0.5 * width * weight;
         let chord_m = params.blade_chord_m.at(x);
         let twist_rad = params.twist_rad.at(x);
         Station {
             region,
             radius_m: x * radius_m,
-            area_m2: chord_m * width_norm * radius_m,
+            area_m2: chord_m * weight_norm * radius_m,
             chord_m,
-            turn_delay_m: ROOT_3 * chord_m,
-            lifting: clamp((params.tip_loss_norm - inner) / width, 0.0, 1.0),
-            disc_norm: 2.0 * x * width_norm,
+            delay: params.section.delay(chord_m / (x * radius_m)),
+            inner_norm: inner,
+            width_norm: width,
+            disc_norm: 2.0 * x * weight_norm,
             sin_twist: sin(twist_rad),
             cos_twist: cos(twist_rad),
         }

@@ -5,7 +5,7 @@
 //! e_r = (−cos ψ, sin ψ)   e_ψ = (sin ψ, cos ψ)          in the hub plane, x forward and y right
 //! β = β0 − a1·cos ψ − b1·sin ψ                          flap, up positive
 //! θ = θ¾ + twist(r) − A1·cos ψ − B1·sin ψ − tan δ3·(β_gimbal)
-//! U_T = Ω·r + V·e_ψ                                     against the air, in the hub plane
+//! U_T = Ω·r + V·e_ψ − s(r)                              against the air, in the hub plane
 //! U_P = Vz·cos β − V·e_r·sin β + r·β̇ + v(r, ψ)          against the air, along the blade's normal
 //! sin α = (sin θ·U_T − cos θ·U_P)/U     cos α = (cos θ·U_T + sin θ·U_P)/U
 //! dFn = ½ρcU·(cl·U_T − cd·U_P)·dr       dFt = ½ρcU·(cl·U_P + cd·U_T)·dr
@@ -22,7 +22,7 @@
 use super::blade::{Blade, STATIONS};
 use super::flapping;
 use super::section::LIFT_SLOPE;
-use crate::math::{cos, sin, sqrt, square};
+use crate::math::{cos, min, sin, sqrt, square};
 
 /// Azimuths in a turn.
 pub const AZIMUTHS: usize = 8;
@@ -72,6 +72,10 @@ pub struct Pitch {
 pub struct Induced {
     /// Around the turn, by station.
     pub mean_mps: [f64; STATIONS],
+    /// With the rotation, by station.
+    pub swirl_mps: [f64; STATIONS],
+    /// Part of each station's area that lifts.
+    pub lifting: [f64; STATIONS],
     /// More of it aft, per radius.
     pub aft_per_s: f64,
     /// More of it on the right, per radius.
@@ -157,7 +161,7 @@ fn azimuth(
     let (mut torque, mut moment, mut damping) = (0.0, 0.0, 0.0);
     for (i, station) in blade.stations.iter().enumerate() {
         let r = station.radius_m;
-        let u_t = flow.omega_radps * r + turning_mps;
+        let u_t = flow.omega_radps * r + turning_mps - induced.swirl_mps[i];
         let u_p = through_mps + through_per_s * r + induced.mean_mps[i];
         // The tiny length keeps still air from dividing by nothing.
         let u = sqrt(u_t * u_t + u_p * u_p + 1e-12);
@@ -166,13 +170,13 @@ fn azimuth(
         let cos_pitch = cos_theta * station.cos_twist - sin_theta * station.sin_twist;
         let sin_alpha = (sin_pitch * u_t - cos_pitch * u_p) * per_u;
         let cos_alpha = (cos_pitch * u_t + sin_pitch * u_p) * per_u;
-        let turn = station.turn_delay_m * flow.omega_radps * per_u;
+        let turn = r * flow.omega_radps * per_u;
         let section = blade.regions[station.region].coefficients(
             (sin_alpha, cos_alpha),
             u * per_sound,
-            turn * turn,
+            station.delay * min(turn * turn, 1.0),
         );
-        let lift = station.lifting * section.lift;
+        let lift = induced.lifting[i] * section.lift;
         let scale = station.area_m2 * u;
         let f_n = scale * (lift * u_t - section.drag * u_p);
         let f_t = scale * (lift * u_p + section.drag * u_t);

@@ -4,20 +4,23 @@
 //! ```text
 //! cl, cd = tables(α'),   α' = α0 + (α − α0)·√(1 − M_t²)/√(1 − M²)     −6° < α < 12°     [TP04]
 //! cl = 2·sin α·cos α,  cd = 0.01 + 1.9·sin²α                          flat plate
-//! cl += 3·(c/r)²·(Ωr/U)²·(a·(sin α − sin α0) − cl)     rotation holds off the stall  [SNEL]
+//! cl(α) = cl(α' − Δ) + a·Δ,  cd(α) = cd(α' − Δ)       rotation holds off the stall  [CORRIGAN]
+//! Δ = (K − 1)·(Ωr/U)²·(α' − α0), at most at αs,  K = (1.291·(c/r)^.0775)^n
 //! cd += d(M) − d(M_t),  d = 20·(M − M_cr)⁴ above M_cr,  M_cr = κ_A − t/c − cl/10 − .108   [KORN]
 //! ```
 //! Between −6° and −20°, and between 12° and 30°, the table fades into the plate; what rotation adds
-//! fades out between 30° and 50°.
+//! fades out between 30° and 60°.
 //! # Signs
 //! α from zero at the chord, leading edge up positive; lift and drag across and along the flow.
 //! # Assumptions
 //! The tables hold at one Mach number M_t a region: Prandtl–Glauert carries their slope, not their
-//! greatest lift, to others. No unsteady stall, no Reynolds number.
+//! greatest lift, to others. No unsteady stall, no Reynolds number. The drag goes on in a straight line
+//! where its table ends and that of the lift does not (8° to 12°). Flow that rotation keeps attached
+//! has the drag of attached flow, which the source of the delay does not say.
 
 use serde::Deserialize;
 
-use crate::math::{clamp, max, min, sqrt, square};
+use crate::math::{clamp, max, min, pow_positive, sqrt, square};
 use crate::table::{Table1, Table2};
 
 /// Angles of a table, at most.
@@ -42,6 +45,8 @@ pub struct Params {
     pub thickness_norm: Table1,
     /// M at the tip when the tables hold: M_t is that of the region's middle.
     pub table_tip_mach: f64,
+    /// n.
+    pub delay_exponent: f64,
     /// κ_A.
     pub korn_factor: f64,
 }
@@ -88,18 +93,27 @@ impl Params {
             }
             let inner = if i > 0 { lift.x[i - 1] } else { root_norm };
             let mach = self.table_tip_mach * 0.5 * (inner + lift.x[i]);
+            let zero_lift_rad = lift.y[0] + step * root(&lift.z[i]);
             Region {
                 points,
                 from_rad: lift.y[0],
                 to_rad: lift.y[last],
                 per_step: 1.0 / step,
                 cell_max: last as f64 - 1.0,
-                zero_lift_rad: lift.y[0] + step * root(&lift.z[i]),
+                zero_lift_rad,
+                lift_slope_per_rad: slope(&lift.z[i]) / step,
+                to_stall_rad: lift.y[greatest(&lift.z[i])] - zero_lift_rad,
                 table_mach: mach,
                 table_beta: sqrt(1.0 - square(mach)),
                 rise_mach: self.korn_factor - self.thickness_norm.y[i] - DIVERGENCE,
             }
         })
+    }
+
+    /// K − 1 at a chord over radius; the correlation knows none beyond a half.
+    pub fn delay(&self, chord_over_radius: f64) -> f64 {
+        let k = 1.291 * pow_positive(clamp(chord_over_radius, 1e-3, 0.5), 0.0775);
+        max(pow_positive(k, self.delay_exponent) - 1.0, 0.0)
     }
 
     /// Where among the lift's angles the drag's begin.
@@ -115,6 +129,17 @@ fn root(row: &[f64]) -> f64 {
     i as f64 - row[i] / (row[i + 1] - row[i])
 }
 
+/// Slope of a row between a fifth and a half of its length, per step: where lift is straight.
+fn slope(row: &[f64]) -> f64 {
+    let (from, to) = (row.len() / 5, row.len() / 2);
+    (row[to] - row[from]) / (to - from) as f64
+}
+
+/// Where a row is greatest.
+fn greatest(row: &[f64]) -> usize {
+    (1..row.len()).fold(0, |best, j| if row[j] > row[best] { j } else { best })
+}
+
 /// The section of one region of the blade.
 #[derive(Clone, Copy, Debug)]
 pub struct Region {
@@ -126,6 +151,10 @@ pub struct Region {
     cell_max: f64,
     /// α0.
     pub zero_lift_rad: f64,
+    /// a.
+    lift_slope_per_rad: f64,
+    /// αs − α0, to the greatest lift.
+    to_stall_rad: f64,
     /// M_t.
     table_mach: f64,
     /// √(1 − M_t²).
@@ -150,15 +179,13 @@ const STALL: f64 = 0.207_911_690_817_759_3;
 const PLATE: f64 = 0.5;
 const STALL_BELOW: f64 = 0.104_528_463_267_653_5;
 const PLATE_BELOW: f64 = 0.342_020_143_325_668_7;
-/// sin 50°: where rotation has lost its hold.
-const DELAY_END: f64 = 0.766_044_443_118_978;
-/// The correlation is of chords up to 0.4 of the radius at hand.
-const DELAY_MAX: f64 = 0.5;
+/// sin 60°: where rotation has lost its hold.
+const DELAY_END: f64 = 0.866_025_403_784_438_6;
 /// a: lift slope that stands for all sections where the tables do not say, per rad.
 pub const LIFT_SLOPE: f64 = 5.7;
 
 impl Region {
-    /// Coefficients at the angle of attack with this sine and cosine; `delay` is 3·(c/r)²·(Ωr/U)².
+    /// Coefficients at the angle of attack with this sine and cosine; `delay` is (K − 1)·(Ωr/U)².
     #[inline]
     pub fn coefficients(
         &self,
@@ -167,27 +194,27 @@ impl Region {
         delay: f64,
     ) -> Coefficients {
         let s = sin_alpha;
-        let beyond = if s > 0.0 {
-            (s - STALL) * (1.0 / (PLATE - STALL))
-        } else {
-            (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW))
-        };
-        let stalled = if cos_alpha > 0.0 { clamp(beyond, 0.0, 1.0) } else { 1.0 };
         let (mut lift, mut drag) = (2.0 * s * cos_alpha, 0.01 + 1.9 * s * s);
-        if stalled < 1.0 {
+        let mut stalled = 1.0;
+        if cos_alpha > 0.0 && s < DELAY_END && s > -PLATE_BELOW {
             // The arc sine by its series: to 1e-6 rad where the table ends, 5e-4 where the plate begins.
             let s2 = s * s;
             let alpha = s * (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0)));
             let slope = self.table_beta / sqrt(1.0 - min(square(mach), MACH2_MAX));
-            let scaled = self.zero_lift_rad + (alpha - self.zero_lift_rad) * slope;
-            let (table_lift, table_drag) = self.table(scaled);
-            lift = table_lift + stalled * (lift - table_lift);
-            drag = table_drag + stalled * (drag - table_drag);
-        }
-        if s > 0.0 && s < DELAY_END && cos_alpha > 0.0 {
-            let potential = LIFT_SLOPE * (s - self.zero_lift_rad);
+            let lifting = (alpha - self.zero_lift_rad) * slope;
+            let delayed = delay * clamp(lifting, 0.0, self.to_stall_rad);
+            let beyond = if s > 0.0 {
+                (s - delayed * cos_alpha - STALL) * (1.0 / (PLATE - STALL))
+            } else {
+                (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW))
+            };
+            stalled = clamp(beyond, 0.0, 1.0);
+            let (table_lift, table_drag) = self.table(self.zero_lift_rad + lifting - delayed);
             let fade = min((DELAY_END - s) * (1.0 / (DELAY_END - PLATE)), 1.0);
-            lift += fade * min(delay, DELAY_MAX) * max(potential - lift, 0.0);
+            lift = table_lift
+                + stalled * (lift - table_lift)
+                + fade * self.lift_slope_per_rad * delayed;
+            drag = table_drag + stalled * (drag - table_drag);
         }
         let rise_mach = self.rise_mach - 0.1 * lift.abs();
         if mach > rise_mach {

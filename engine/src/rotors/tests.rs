@@ -23,7 +23,6 @@ fn ideal() -> Params {
         blade: blade::Params {
             count: 3.0,
             root_norm: 0.0875,
-            tip_loss_norm: 1.0,
             blade_chord_m: Table1 { x: vec![0.0, 1.0], y: vec![0.3556; 2] },
             twist_rad: Table1 { x: vec![0.0, 1.0], y: vec![15.0 * DEG, -5.0 * DEG] },
             section: section::Params {
@@ -39,6 +38,7 @@ fn ideal() -> Params {
                 },
                 thickness_norm: Table1 { x: ends, y: vec![0.1; section::REGIONS] },
                 table_tip_mach: 0.0,
+                delay_exponent: 0.0,
                 korn_factor: 9.0,
             },
         },

@@ -48,7 +48,8 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
     let mut plan = if on_wheels { TAKE_OFF.to_vec() } else { Vec::new() };
     let convert = ("conversion", Phase::Convert { knots: 170.0 });
     let cruise = ("aeroplane", forever);
-    let stop = ("reconversion", Phase::Stop { height_m: 10.0 });
+    let stop = ("reconversion", Phase::Stop { height_m: None });
+    let descend = ("descent", Phase::Stop { height_m: Some(10.0) });
     match name {
         "hover" if on_wheels => {
             plan.truncate(2);
@@ -66,9 +67,12 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
             plan.truncate(2);
             plan.push(("landing", Phase::Land));
         }
-        "land" => plan.extend([stop, ("landing", Phase::Land)]),
+        "land" => plan.extend([descend, ("landing", Phase::Land)]),
         "demo" => {
-            plan.splice(2..2, [("hover", Phase::Hold { seconds: 3.0 }), ("marker", Phase::Mark)]);
+            if on_wheels {
+                let hover = ("hover", Phase::Hold { seconds: 3.0 });
+                plan.splice(2..2, [hover, ("marker", Phase::Mark)]);
+            }
             plan.extend([
                 ("conversion", Phase::Convert { knots: 150.0 }),
                 ("climb", Phase::Climb { height_m: 120.0 }),

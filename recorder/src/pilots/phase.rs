@@ -33,8 +33,8 @@ pub enum Phase {
     Home { bank_rad: f64 },
     /// Flies to that spot, reconverts and slows down on the way, hovers over it.
     Approach { height_m: f64 },
-    /// Reconverts and slows down straight ahead, hovers.
-    Stop { height_m: f64 },
+    /// Reconverts and slows down straight ahead, hovers at a height over the ground, or at the one it has.
+    Stop { height_m: Option<f64> },
     /// Turns over a spot to the heading of the start.
     FaceStart,
     /// Descends onto the wheels and lowers the lever.
@@ -97,10 +97,16 @@ impl Order {
 const CORRIDOR_MPS: f64 = 8.0 * KNOT_MPS;
 /// The nacelles' way from the decision to the next one, rad: four degrees.
 const AHEAD_RAD: f64 = 0.07;
+/// Rotor speed of a conversion, rad/s: 589 rpm.
+const ROTOR_RADPS: f64 = 61.68;
+/// Part of it by which the rotors may be off while the nacelles move.
+const ROTORS_OFF_MAX: f64 = 0.05;
 /// Nearer to an end than this the nacelles are there, rad.
 const END_RAD: f64 = 0.003;
 /// Deceleration of an approach, m/s².
 const APPROACH_MPS2: f64 = 1.4;
+/// Slowest descent from high up, m/s.
+const DESCENT_MPS: f64 = 28.0;
 /// How fast the lever goes down after touchdown, 1/s.
 const LOWER_PER_S: f64 = 0.3;
 /// From touchdown to the end of the flight, s.
@@ -214,11 +220,18 @@ impl Pilot {
             && self.is_helicopter(seen)
     }
 
-    /// Straight ahead.
-    fn stop(&mut self, seen: &Outputs, height_m: f64) -> bool {
-        let slow_mps = max(0.0, self.order.forward_mps - APPROACH_MPS2 * HAND_S);
+    /// Straight ahead: down to a low height first, with speed, then to a hover there.
+    fn stop(&mut self, seen: &Outputs, height_m: Option<f64>) -> bool {
+        let height_m = height_m.unwrap_or(self.order.height_m);
+        let high_m = seen.height_above_ground_m - height_m;
+        // Out of its own wake an aircraft that flies may sink twice as fast as one that hovers.
+        let least_mps = if high_m > 40.0 { DESCENT_MPS } else { 0.0 };
+        let slow_mps = max(least_mps, self.order.forward_mps - APPROACH_MPS2 * HAND_S);
         self.slow_down(seen, slow_mps);
-        if seen.velocity_mps.norm() < 15.0 {
+        if self.is_helicopter(seen) {
+            if high_m > 40.0 && seen.airspeed_mps > 0.8 * DESCENT_MPS {
+                self.order.sink_mps_max = 5.0;
+            }
             self.order.height_m = min(self.order.height_m, height_m);
         }
         seen.velocity_mps.norm() < 1.0
@@ -263,7 +276,7 @@ impl Pilot {
         let eyes = Eyes::look(seen);
         let order = &mut self.order;
         let climb_mps = if phase == Phase::Land {
-            -clamp(0.35 * (seen.height_above_ground_m - 2.2), 0.5, 1.8)
+            -clamp(0.3 * (seen.height_above_ground_m - 2.3), 0.4, 1.6)
         } else {
             let gain_per_s = if seen.airspeed_mps > 40.0 { 0.2 } else { 0.4 };
             let off_m = order.height_m - seen.height_above_ground_m;
@@ -320,8 +333,11 @@ impl Pilot {
     pub(super) fn switches(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
         let order = &self.order;
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
+        // The governor is given time to follow: the rotors' own warnings come at 625 rpm and 90 %.
+        let rotors_off = seen.rotor_speed_radps / ROTOR_RADPS - 1.0;
         let thumb = match order.nacelles {
             Nacelles::Stay => 0,
+            _ if rotors_off.abs() > ROTORS_OFF_MAX => 0,
             Nacelles::Forward if tilt_rad < FRAC_PI_2 - 1e-4 => {
                 let ahead_rad = min(tilt_rad + AHEAD_RAD, FRAC_PI_2);
                 let fast = order.airspeed_mps > slowest_mps(ahead_rad) + CORRIDOR_MPS;

@@ -98,11 +98,11 @@ const UP_MPS2_MAX: f64 = 2.0;
 /// k_V, 1/s.
 const SPEED_PER_S: f64 = 0.3;
 /// k_c over a spot and in flight, 1/s.
-const CLIMB_PER_S: [f64; 2] = [0.8, 0.6];
+const CLIMB_PER_S: [f64; 2] = [0.8, 0.5];
 /// How fast the lever makes up for what is felt, over a spot and in flight, 1/s.
 const LEARN_LEVER_PER_S: [f64; 2] = [0.9, 0.5];
 /// How fast the attitude does, 1/s.
-const LEARN_PITCH_PER_S: [f64; 2] = [0.4, 1.2];
+const LEARN_PITCH_PER_S: [f64; 2] = [0.4, 0.8];
 /// Part of what is wanted that the hands do at once.
 const AT_ONCE: f64 = 0.7;
 /// What is felt is felt with this lag, s.
@@ -179,7 +179,7 @@ impl Skill {
         let roll_off = clamp(1.5 * (roll_rad - seen.euler.roll_rad), -0.35, 0.35) - rate.x;
         let learn = if on_wheels { 0.0 } else { HAND_S };
         self.stick_aft_norm =
-            clamp(self.stick_aft_norm + 0.9 * light * pull_off * learn, -0.9, 0.9);
+            clamp(self.stick_aft_norm + 1.8 * light * pull_off * learn, -0.9, 0.9);
         self.stick_right_norm = clamp(self.stick_right_norm + 0.4 * roll_off * learn, -0.6, 0.6);
 
         // Slow: the nose by pedals. Fast: the ball in the middle.
@@ -193,8 +193,8 @@ impl Skill {
         let learned_foot = slow * 0.25 * nearly + flying * 0.3 * ball_foot;
         self.pedal_right_norm = clamp(self.pedal_right_norm + learned_foot * learn, -0.7, 0.7);
         Positions {
-            stick_aft_norm: self.stick_aft_norm + 1.5 * light * pull_off,
-            stick_right_norm: self.stick_right_norm + 0.5 * roll_off,
+            stick_aft_norm: self.stick_aft_norm + 1.8 * light * pull_off,
+            stick_right_norm: self.stick_right_norm + 0.9 * roll_off,
             pedal_right_norm: self.pedal_right_norm + slow * spot_foot + flying * 0.9 * ball_foot,
             lever_norm,
         }
@@ -286,7 +286,7 @@ impl Skill {
                 clamp(self.roll_level_rad + slow * 0.006 * right_off * HAND_S, -0.15, 0.15);
             self.roll_level_rad *= 1.0 - flying * HAND_S / 2.0;
         }
-        let hover_rad = clamp(0.05 * right_off, -0.2, 0.2);
+        let hover_rad = clamp(0.04 * right_off, -0.2, 0.2);
         let heading_off = wrap_angle(aim.heading_rad - seen.euler.heading_rad);
         let turn_radps = clamp(0.2 * heading_off, -0.35, 0.35);
         let bank_rad = clamp(

@@ -10,6 +10,8 @@
 //! │ events           │ modes            │
 //! └──────────────────┴──────────────────┘
 //! ```
+//! Two flights have the same places; each plot has the difference beside it.
+//!
 //! Rerun's own builder (`rerun::blueprint::Blueprint`) cannot set a view's properties from Rust: no
 //! eye, no visible time, no legend. Its builder only logs archetypes to a recording of the
 //! blueprint kind, so this does the same with the archetypes themselves, which it exports.
@@ -81,12 +83,15 @@ const PLOT_TABS: &[(&str, &[Graph])] = &[
     ]),
 ];
 
+/// How a difference grows.
+const GROWTH: &[Graph] = &[("logarithm to base 10 of the difference", &["growth"])];
+
 /// Sends the layout, and has the viewer use it.
 ///
 /// A view fits its axes, map and eye to what is there when it first appears. So a layout is sent
 /// twice: at the start for a flight that never ends, and at the end, as other views (`edition`), to
 /// be fitted to the whole flight.
-pub fn send(recording: &RecordingStream, edition: u8) -> RecordingStreamResult<()> {
+pub fn send(recording: &RecordingStream, edition: u8, kind: Kind) -> RecordingStreamResult<()> {
     let Some(about) = recording.store_info() else { return Ok(()) };
     let (stream, storage) = RecordingStreamBuilder::new(about.application_id().clone())
         .enabled(true)
@@ -96,7 +101,7 @@ pub fn send(recording: &RecordingStream, edition: u8) -> RecordingStreamResult<(
     stream.set_log_time_enabled(false);
     // How the viewer knows a blueprint's data.
     stream.set_time_sequence("blueprint", 0);
-    let mut page = Page { stream, edition, named: 0 };
+    let mut page = Page { stream, edition, kind, named: 0 };
     let root = page.root()?;
     page.panels(root)?;
 
@@ -111,17 +116,42 @@ pub fn send(recording: &RecordingStream, edition: u8) -> RecordingStreamResult<(
     Ok(())
 }
 
+/// What is laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One flight.
+    Flight,
+    /// Two, and the difference.
+    Comparison,
+}
+
+impl Kind {
+    /// Before the names of the entities of each flight.
+    fn roots(self) -> &'static [&'static str] {
+        match self {
+            Self::Flight => &["/"],
+            Self::Comparison => &["/recorded/", "/reflown/"],
+        }
+    }
+
+    /// An entity of every flight.
+    fn each(self, name: &str) -> Vec<String> {
+        self.roots().iter().map(|root| format!("{root}{name}")).collect()
+    }
+}
+
 /// A layout that grows.
 struct Page {
     stream: RecordingStream,
     edition: u8,
+    kind: Kind,
     named: u8,
 }
 
 impl Page {
     fn root(&mut self) -> RecordingStreamResult<Uuid> {
         let chase = self.chase()?;
-        let map = self.view("Map", "Map", "/map", &["$origin/**"], &[])?;
+        let map = self.view("Map", "Map", "/", &self.kind.each("map/**"), &[])?;
         let overview = self.overview()?;
         let places =
             self.container(ContainerKind::Horizontal, "Places", &[overview, map], &[1.0, 1.0])?;
@@ -129,12 +159,19 @@ impl Page {
             self.container(ContainerKind::Vertical, "Where", &[chase, places], &[2.0, 1.0])?;
 
         let mut tabs = Vec::new();
-        for (name, plots) in PLOT_TABS {
-            let plots = plots
-                .iter()
-                .map(|(name, paths)| self.plot(name, paths))
-                .collect::<RecordingStreamResult<Vec<Id>>>()?;
-            tabs.push(self.container(ContainerKind::Vertical, name, &plots, &[])?);
+        for (name, graphs) in PLOT_TABS {
+            let roots = self.kind.roots();
+            let plots = self.plots(name, graphs, roots, "")?;
+            tabs.push(match self.kind {
+                Kind::Flight => plots,
+                Kind::Comparison => {
+                    let delta = self.plots("Difference", graphs, &["/delta/"], "Δ ")?;
+                    self.container(ContainerKind::Horizontal, name, &[plots, delta], &[])?
+                }
+            });
+        }
+        if self.kind == Kind::Comparison {
+            tabs.push(self.plots("Growth", GROWTH, &["/delta/"], "")?);
         }
         let right = self.container(ContainerKind::Tabs, "Plots", &tabs, &[])?;
         let above =
@@ -147,10 +184,11 @@ impl Page {
             "TextLog",
             "Events",
             "/events",
-            &["$origin/**"],
+            &["$origin/**".into()],
             &[("TextLogColumns", &columns)],
         )?;
-        let modes = self.view("StateTimeline", "Modes", "/modes", &["$origin/**"], &[])?;
+        let modes = self.kind.each("modes/**");
+        let modes = self.view("StateTimeline", "Modes", "/", &modes, &[])?;
         let below =
             self.container(ContainerKind::Horizontal, "Story", &[events, modes], &[11.0, 10.0])?;
         let root = self.id();
@@ -168,47 +206,78 @@ impl Page {
             .with_look_target([0.5, 0.0, -0.5])
             .with_eye_up([0.0, 0.0, -1.0]);
         let grid = LineGrid3D::new().with_visible(false);
-        self.scene("Aircraft", "/world/chase", &["/world/**"], &eye, &grid)
+        let origin = format!("{}world/chase", self.kind.roots()[0]);
+        self.scene("Aircraft", &origin, &[], &eye, &grid)
     }
 
     /// Stands where the whole flight is seen; the ground would be most of what there is to frame.
     fn overview(&mut self) -> RecordingStreamResult<Id> {
         let eye = EyeControls3D::new().with_kind(Eye3DKind::Orbital).with_eye_up([0.0, 0.0, -1.0]);
         let grid = LineGrid3D::new().with_spacing(10.0).with_color(0xFF_FF_FF_50);
-        let queries = ["/world/**", "- /world/ground/**", "- /world/grid/**"];
-        self.scene("Overview", "/world", &queries, &eye, &grid)
+        let origin = format!("{}world", self.kind.roots()[0]);
+        let without: Vec<String> = ["ground", "grid"]
+            .into_iter()
+            .flat_map(|what| self.kind.each(&format!("world/{what}/**")))
+            .map(|entity| format!("- {entity}"))
+            .collect();
+        self.scene("Overview", &origin, &without, &eye, &grid)
     }
 
     fn scene(
         &mut self,
         name: &str,
         origin: &str,
-        queries: &[&str],
+        without: &[String],
         eye: &EyeControls3D,
         grid: &LineGrid3D,
     ) -> RecordingStreamResult<Id> {
+        let mut queries = self.kind.each("world/**");
+        if self.kind == Kind::Comparison {
+            queries.push("/delta/apart".into());
+        }
+        queries.extend_from_slice(without);
         let sky = Background::new(BackgroundKind::SolidColor).with_color(0x8F_B4_D6_FF);
         let properties: &[(&str, &dyn AsComponents)] =
             &[("EyeControls3D", eye), ("Background", &sky), ("LineGrid3D", grid)];
-        let id = self.view("3D", name, origin, queries, properties)?;
+        let id = self.view("3D", name, origin, &queries, properties)?;
         let start = TimeRangeBoundary::CursorRelative(TimeInt(-FLOWN_NS));
         let range = TimeRange { start, end: TimeRangeBoundary::AT_CURSOR };
         let lately = VisibleTimeRange { timeline: super::SIM_TIME.into(), range };
-        self.stream.log(
-            format!("{id}/ViewContents/overrides/world/flown/visualizers"),
-            &VisibleTimeRanges::new([lately]),
-        )?;
+        let lately = VisibleTimeRanges::new([lately]);
+        for flown in self.kind.each("world/flown") {
+            let place = format!("{id}/ViewContents/overrides{flown}/visualizers");
+            self.stream.log(place, &lately)?;
+        }
         Ok(id)
     }
 
-    fn plot(&mut self, name: &str, paths: &[&str]) -> RecordingStreamResult<Id> {
-        let queries: Vec<String> = paths.iter().map(|path| format!("/{path}/**")).collect();
-        let queries: Vec<&str> = queries.iter().map(String::as_str).collect();
-        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+    /// Plots from top to bottom, each with its lines under every root.
+    fn plots(
+        &mut self,
+        name: &str,
+        graphs: &[Graph],
+        roots: &[&str],
+        mark: &str,
+    ) -> RecordingStreamResult<Id> {
+        let mut plots = Vec::new();
+        for (name, paths) in graphs {
+            let of = |root: &&str| -> Vec<String> {
+                paths.iter().map(|path| format!("{root}{path}/**")).collect()
+            };
+            let queries: Vec<String> = roots.iter().flat_map(of).collect();
+            plots.push(self.plot(&format!("{mark}{name}"), &queries)?);
+        }
+        self.container(ContainerKind::Vertical, name, &plots, &[])
+    }
+
+    fn plot(&mut self, name: &str, queries: &[String]) -> RecordingStreamResult<Id> {
+        // Two columns of plots are too narrow for two legends: the same colours are in the other one.
+        let told = self.kind == Kind::Flight || queries.iter().all(|of| of.starts_with("/delta/"));
+        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop).with_visible(told);
         let axis = TimeAxis::new().with_view_range(WHOLE_FLIGHT);
         let properties: &[(&str, &dyn AsComponents)] =
             &[("PlotLegend", &legend), ("TimeAxis", &axis)];
-        self.view("TimeSeries", name, "/plots", &queries, properties)
+        self.view("TimeSeries", name, "/", queries, properties)
     }
 
     fn view(
@@ -216,12 +285,14 @@ impl Page {
         class: &str,
         name: &str,
         origin: &str,
-        queries: &[&str],
+        queries: &[String],
         properties: &[(&str, &dyn AsComponents)],
     ) -> RecordingStreamResult<Id> {
         let id = format!("view/{}", hyphenated(self.id()));
-        self.stream
-            .log(format!("{id}/ViewContents"), &ViewContents::new(queries.iter().copied()))?;
+        self.stream.log(
+            format!("{id}/ViewContents"),
+            &ViewContents::new(queries.iter().map(String::as_str)),
+        )?;
         let view = ViewBlueprint::new(ViewClass(class.into()))
             .with_display_name(name)
             .with_space_origin(origin);

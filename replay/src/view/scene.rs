@@ -12,6 +12,7 @@ use rerun::{
 };
 
 use super::plots::{MODES, PLOTS};
+use super::track::Look;
 use super::{SIDES, airframe, scenery};
 
 /// Posts under the path, at most.
@@ -46,8 +47,8 @@ impl PathPoint {
 /// What to send of some rows.
 pub type Columns = rerun::SerializationResult<Vec<SerializedComponentColumn>>;
 
-/// Everything in the world that moves.
-pub fn moving_columns(rows: &[Outputs]) -> Vec<(&'static str, Columns)> {
+/// Everything in the world that moves, with the ground under it or without.
+pub fn moving_columns(rows: &[Outputs], ground: bool) -> Vec<(&'static str, Columns)> {
     let pose = |position: fn(&Outputs) -> [f32; 3], attitude: fn(&Outputs) -> Quaternion| {
         Transform3D::new()
             .with_many_translation(rows.iter().map(position))
@@ -66,9 +67,7 @@ pub fn moving_columns(rows: &[Outputs]) -> Vec<(&'static str, Columns)> {
         [point(below.position_m), point(below.on_ground_m())]
     }));
     let track = GeoPoints::from_lat_lon(rows.iter().map(|row| degrees(&row.place)));
-    vec![
-        ("world/ground", pose(|row| under(row, scenery::PLANE_STEP_M), |_| Quaternion::IDENTITY)),
-        ("world/grid", pose(|row| under(row, scenery::GRID_STEP_M), |_| Quaternion::IDENTITY)),
+    let mut columns = vec![
         ("world/chase", pose(|row| point(row.position_m), |row| turn(row.euler.heading_rad))),
         ("world/aircraft", pose(|row| point(row.position_m), attitude)),
         ("world/aircraft/airframe", pose(datum, |_| Quaternion::IDENTITY)),
@@ -99,7 +98,13 @@ pub fn moving_columns(rows: &[Outputs]) -> Vec<(&'static str, Columns)> {
         ),
         ("world/plumb", plumb.columns_of_unit_batches().map(Vec::from_iter)),
         ("map/aircraft", track.columns_of_unit_batches().map(Vec::from_iter)),
-    ]
+    ];
+    if ground {
+        let plane = pose(|row| under(row, scenery::PLANE_STEP_M), |_| Quaternion::IDENTITY);
+        let grid = pose(|row| under(row, scenery::GRID_STEP_M), |_| Quaternion::IDENTITY);
+        columns.extend([("world/ground", plane), ("world/grid", grid)]);
+    }
+    columns
 }
 
 /// As rerun takes it.
@@ -156,56 +161,60 @@ fn gear(outputs: &Outputs) -> [f32; 3] {
 }
 
 /// Sends what does not move: shapes, colours, names.
-pub fn send_still_life(recording: &RecordingStream) -> RecordingStreamResult<()> {
-    recording.log_static("world", &ViewCoordinates::FRD())?;
-    recording.log_static("world/ground", &scenery::plane())?;
-    recording.log_static("world/ground/lines", &scenery::far_lines())?;
-    recording.log_static("world/grid", &scenery::near_lines())?;
-    recording.log_static("world/pad", &scenery::pad())?;
-    recording.log_static("world/aircraft/airframe", &airframe::airframe().mesh())?;
-    recording.log_static("world/aircraft/airframe/gear", &airframe::gear().mesh())?;
+pub fn send_still_life(recording: &RecordingStream, look: &Look) -> RecordingStreamResult<()> {
+    let entity = |name: &str| format!("{}{name}", look.root);
+    recording.log_static(entity("world"), &ViewCoordinates::FRD())?;
+    if look.ground {
+        recording.log_static(entity("world/ground"), &scenery::plane())?;
+        recording.log_static(entity("world/ground/lines"), &scenery::far_lines())?;
+        recording.log_static(entity("world/grid"), &scenery::near_lines())?;
+        recording.log_static(entity("world/pad"), &scenery::pad())?;
+    }
+    let tinted = |solid: airframe::Solid| solid.mesh().with_albedo_factor(look.tint);
+    recording.log_static(entity("world/aircraft/airframe"), &tinted(airframe::airframe()))?;
+    recording.log_static(entity("world/aircraft/airframe/gear"), &tinted(airframe::gear()))?;
     for (side, colour) in [("left", SIDES.left), ("right", SIDES.right)] {
-        let nacelle = format!("world/aircraft/airframe/nacelle_{side}");
-        recording.log_static(nacelle.as_str(), &airframe::nacelle().mesh())?;
+        let nacelle = entity(&format!("world/aircraft/airframe/nacelle_{side}"));
+        recording.log_static(nacelle.as_str(), &tinted(airframe::nacelle()))?;
         let rotor = format!("{nacelle}/rotor_{side}");
-        recording.log_static(rotor.as_str(), &airframe::blades().mesh())?;
+        recording.log_static(rotor.as_str(), &tinted(airframe::blades()))?;
         recording.log_static(format!("{rotor}/disc"), &airframe::disc(colour))?;
         recording.log_static(
-            format!("world/aircraft/thrust_{side}"),
+            entity(&format!("world/aircraft/thrust_{side}")),
             &Arrows3D::update_fields().with_radii([0.11]).with_colors([colour]),
         )?;
     }
     recording.log_static(
-        "world/flown",
+        entity("world/flown"),
         &LineStrips3D::update_fields()
             .with_radii([Radius::new_ui_points(2.5)])
-            .with_colors([0xFF_C2_3A_FF]),
+            .with_colors([look.flown]),
     )?;
     recording.log_static(
-        "world/plumb",
+        entity("world/plumb"),
         &LineStrips3D::update_fields()
             .with_radii([Radius::new_ui_points(0.7)])
             .with_colors([0xFF_FF_FF_90]),
     )?;
     recording.log_static(
-        "map/aircraft",
+        entity("map/aircraft"),
         &GeoPoints::update_fields()
             .with_radii([Radius::new_ui_points(7.0)])
-            .with_colors([0xFF_C2_3A_FF]),
+            .with_colors([look.flown]),
     )?;
     for plot in PLOTS {
         recording.log_static(
-            plot.path,
+            entity(plot.path),
             &rerun::SeriesLines::new()
-                .with_names([plot.name])
-                .with_colors([plot.colour])
-                .with_widths([plot.width]),
+                .with_names([format!("{}{}", look.name, plot.name)])
+                .with_colors([plot.colour & look.line_mask])
+                .with_widths([plot.width + look.line_width]),
         )?;
     }
     for mode in MODES {
         let (values, colours): (Vec<&str>, Vec<u32>) = mode.values.iter().copied().unzip();
         recording.log_static(
-            mode.path,
+            entity(mode.path),
             &StateConfiguration::new().with_values(values).with_colors(colours),
         )?;
     }
@@ -213,26 +222,31 @@ pub fn send_still_life(recording: &RecordingStream) -> RecordingStreamResult<()>
 }
 
 /// Sends what is known only at the end: the whole path.
-pub fn send_path(recording: &RecordingStream, trail: &[PathPoint]) -> RecordingStreamResult<()> {
+pub fn send_path(
+    recording: &RecordingStream,
+    trail: &[PathPoint],
+    look: &Look,
+) -> RecordingStreamResult<()> {
+    let entity = |name: &str| format!("{}{name}", look.root);
     let path = trail.iter().map(|at| point(at.position_m));
     recording.log_static(
-        "world/path",
+        entity("world/path"),
         &LineStrips3D::new([path.collect::<Vec<_>>()])
             .with_radii([Radius::new_ui_points(1.0)])
-            .with_colors([0x7F_D0_FF_FF]),
+            .with_colors([look.path | 0xFF]),
     )?;
     let spacing = (trail.len() / POSTS_MAX).max(20);
     let posts = trail.iter().step_by(spacing);
     recording.log_static(
-        "world/path/posts",
+        entity("world/path/posts"),
         &LineStrips3D::new(posts.map(|at| [point(at.position_m), point(at.on_ground_m())]))
             .with_radii([Radius::new_ui_points(0.5)])
-            .with_colors([0x7F_D0_FF_60]),
+            .with_colors([look.path | 0x60]),
     )?;
     recording.log_static(
-        "map/track",
+        entity("map/track"),
         &GeoLineStrings::from_lat_lon([trail.iter().map(|at| degrees(&at.place))])
             .with_radii([Radius::new_ui_points(1.5)])
-            .with_colors([0x7F_D0_FF_FF]),
+            .with_colors([look.path | 0xFF]),
     )
 }
