@@ -170,10 +170,3 @@ impl Reflight {
         self.reader.ending().cloned().unwrap_or(Ending::Truncated)
     }
 }
-
-/// The aircraft of a log, with its cockpit map.
-pub(crate) fn aircraft_of(setup: &Setup) -> Result<Aircraft, ReplayError> {
-    let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
-    aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
-    Ok(aircraft)
-}

@@ -30,7 +30,7 @@ pub(crate) struct Expander {
     open: Open,
     /// Whether a log of another version of the flight model is to be read.
     pub across: bool,
-    /// The log's version of the flight model is not ours: nothing is flown again.
+    /// The log's flight model, or its aircraft file, is not for us: nothing is flown again.
     blind: bool,
     flier: Option<Flier>,
     /// The last recorded state's message, and the tick of the last state.
@@ -229,7 +229,12 @@ impl Expander {
             let (attachments, definitions) = head(bytes)?;
             let setup = setup_of(&attachments)?;
             if !self.blind {
-                self.flier = Some(Flier::new((self.open)(&setup)?));
+                match (self.open)(&setup) {
+                    Ok(flown) => self.flier = Some(Flier::new(flown)),
+                    // An aircraft file of another time: its keyframes can still be read.
+                    Err(_) if self.across => self.blind = true,
+                    Err(error) => return Err(error),
+                }
             }
             self.ready.extend(attachments.into_iter().map(|(h, data)| Raw::Attachment(h, data)));
             for definition in definitions {
