@@ -144,11 +144,12 @@ impl Reflight {
         let Some(recorded) = self.reader.next_tick()? else { return Ok(None) };
         // A compacted log was flown while it was read: once is enough while all is as recorded.
         let flown = self.reader.flown().filter(|_| self.together);
-        let (state, outputs) =
-            flown.map(|(state, outputs)| (*state, *outputs)).unwrap_or_else(|| {
-                let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
-                step(&self.aircraft, &self.state, &inputs)
-            });
+        let (state, outputs) = if let Some((state, outputs)) = flown {
+            (*state, *outputs)
+        } else {
+            let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
+            step(&self.aircraft, &self.state, &inputs)
+        };
         self.state = state;
         self.message.clear();
         cdr::append(&mut self.message, &state)?;

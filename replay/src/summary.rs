@@ -4,7 +4,7 @@
 use std::fmt;
 use std::path::Path;
 
-use engine::math::{PI, sqrt, square};
+use engine::math::{PI, max, sqrt, square};
 use engine::{Outputs, STEP_S, State};
 use logs::FlightReader;
 use logs::view::Remark;
@@ -31,7 +31,7 @@ const READINGS: [Reading; 11] = [
     ("power", "kW", |o| o.engines.power_w.sum() * 1e-3),
     ("flapping", "deg", |o| {
         let tilt = o.rotors.map(|r| sqrt(square(r.tilt_aft_rad) + square(r.tilt_outboard_rad)));
-        tilt.left.max(tilt.right) * DEG
+        max(tilt.left, tilt.right) * DEG
     }),
 ];
 

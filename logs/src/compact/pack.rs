@@ -66,7 +66,7 @@ pub fn compact(
             (Some(Raw::Metadata(record)), Some(_)) => tail.push(record),
             // Our writer defines all channels first, other programs when they need them.
             (Some(raw @ (Raw::Schema { .. } | Raw::Channel(_))), Some(pack)) => {
-                pack.define(&raw)?
+                pack.define(&raw)?;
             }
             (Some(_), Some(_)) => {
                 return Err(LogError::Order("files after the first message".into()));
