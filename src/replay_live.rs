@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, anyhow, bail};
 use engine::STEP_S;
 use flightgear::Link;
 use logs::Ending;
@@ -26,6 +26,9 @@ pub struct Args {
     speed: f64,
     #[command(flatten)]
     window: WindowArgs,
+    /// Fly a log of another version of the flight model too, as a comparison: exit 6, never 0
+    #[arg(long, conflicts_with_all = ["from", "until", "around"])]
+    across_versions: bool,
 }
 
 /// Reflies the log and sends every tick's picture.
@@ -34,8 +37,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
     let window = args.window.of(&args.log)?;
-    let mut flight =
-        Reflight::within(&args.log, &window).with_context(|| args.log.display().to_string())?;
+    let mut flight = match args.across_versions {
+        true => Reflight::open_across_versions(&args.log),
+        false => Reflight::within(&args.log, &window),
+    }
+    .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);
@@ -64,7 +70,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         link.destination(),
         link.dropped()
     );
+    let versions = flight.versions()?;
+    if let Some(versions) = &versions {
+        say!("{versions}");
+    }
+    let comparison = versions.is_some_and(|versions| versions.comparison());
     match flight.ending() {
+        Ending::Closed | Ending::Truncated if comparison => Ok(ExitCode::from(report::COMPARED)),
         Ending::Closed if first_difference.is_some() => Ok(ExitCode::from(report::DIVERGED)),
         Ending::Closed => Ok(ExitCode::SUCCESS),
         Ending::Truncated => {

@@ -59,11 +59,15 @@ struct How {
     /// Fly them with this aircraft file instead of their own
     #[arg(long, value_name = "FILE")]
     aircraft: Option<PathBuf>,
+    /// Fly logs of other versions of the flight model too, as a comparison: exit 6, never 0
+    #[arg(long, conflicts_with_all = ["from", "until", "around"])]
+    across_versions: bool,
 }
 
 impl How {
     fn options(&self, log: &Path) -> Result<Options> {
-        Ok(Options { window: self.window.of(log)?, ..Options::default() })
+        let (window, across_versions) = (self.window.of(log)?, self.across_versions);
+        Ok(Options { window, across_versions, ..Options::default() })
     }
 }
 
@@ -90,9 +94,9 @@ impl Verified {
     fn new(log: &Path, how: Option<&How>, progress: impl FnMut(u64)) -> Self {
         let started = Instant::now();
         let options = how.map_or_else(|| Ok(Options::default()), |how| how.options(log));
-        let verdict = options
-            .map_err(|error| format!("{error:#}"))
-            .and_then(|options| verify(log, &options, progress).map_err(|error| error.to_string()));
+        let verdict = options.map_err(|error| format!("{error:#}")).and_then(|options| {
+            verify(log, &options, progress).map_err(|error| report::refusal(&error))
+        });
         Self { log: log.into(), verdict, took: started.elapsed() }
     }
 
@@ -103,6 +107,7 @@ impl Verified {
             Ok(Outcome::Diverged) => report::DIVERGED,
             Ok(Outcome::Damaged) | Err(_) => report::UNUSABLE,
             Ok(Outcome::Incomplete) => report::NEVER_CLOSED,
+            Ok(Outcome::Compared) => report::COMPARED,
         }
     }
 
@@ -151,7 +156,7 @@ impl Run {
     }
 
     fn say_sum(&self) {
-        let all = ["exact", "diverged", "incomplete", "damaged", "unusable"];
+        let all = ["exact", "diverged", "incomplete", "compared", "damaged", "unusable"];
         let counts: Vec<_> = all
             .into_iter()
             .map(|outcome| (self.count(outcome), outcome))
@@ -271,13 +276,14 @@ impl Done {
     }
 }
 
-/// The graver of two statuses: unusable, then diverged, then never closed.
+/// The graver of two statuses: unusable, then diverged, then compared, then never closed.
 fn worse(a: u8, b: u8) -> u8 {
     let grave = |status| match status {
         0 => 0,
         report::NEVER_CLOSED => 1,
-        report::DIVERGED => 2,
-        _ => 3,
+        report::COMPARED => 2,
+        report::DIVERGED => 3,
+        _ => 4,
     };
     if grave(b) > grave(a) { b } else { a }
 }

@@ -10,6 +10,7 @@ mod rewrite;
 mod stage;
 mod summary;
 mod verify;
+mod versions;
 #[cfg(feature = "rerun")]
 pub mod view;
 
@@ -23,3 +24,4 @@ pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};
 pub use verify::{Options, Outcome, Verdict, verify};
+pub use versions::Versions;

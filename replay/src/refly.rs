@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::versions::Versions;
+use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 use logs::compact::Flown;
 use logs::{Ending, FlightReader, LogError, Messages, Setup, Tick, cdr};
@@ -101,6 +103,8 @@ pub struct Reflight {
     message: Vec<u8>,
     /// Every tick so far was the recorded one.
     together: bool,
+    /// What is not as the log says.
+    pub notes: Vec<String>,
 }
 
 /// One tick, recorded and reflown.
@@ -122,6 +126,33 @@ impl Reflight {
         Self::within(path, &Window::default())
     }
 
+    /// Opens a log, whatever version of the flight model flew it: what comes out is a comparison of
+    /// two versions. Where the log's files mean nothing to this one, its own take their place.
+    ///
+    /// # Errors
+    /// When it is not a flight log, or its cockpit map cannot be read.
+    pub fn open_across_versions(path: &Path) -> Result<Self, ReplayError> {
+        let reader = FlightReader::open_across_versions(path)?;
+        let mut notes = Vec::new();
+        let setup = &reader.setup;
+        let mut aircraft = match aircraft::aircraft("aircraft.toml", &setup.aircraft_toml) {
+            Ok(aircraft) => aircraft,
+            Err(error) => {
+                notes.push(format!("flown with this version's XV-15: the log's {error}"));
+                aircraft::aircraft("xv15.toml", aircraft::XV15)?
+            }
+        };
+        aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+        let state = match aircraft::start("scenario.toml", &setup.scenario_toml) {
+            Ok(start) => first_state(&reader, &aircraft, &start)?,
+            Err(error) => {
+                notes.push(format!("what the first state lacks is 0: the log's {error}"));
+                reader.initial
+            }
+        };
+        Ok(Self { reader, aircraft, state, message: Vec::new(), together: true, notes })
+    }
+
     /// Opens a log where a window begins, to be reflown until it ends.
     ///
     /// # Errors
@@ -129,9 +160,11 @@ impl Reflight {
     pub fn within(path: &Path, window: &Window) -> Result<Self, ReplayError> {
         let mut reader = open(path)?;
         let aircraft = read(&reader.setup)?.aircraft;
+        let start = aircraft::start("scenario.toml", &reader.setup.scenario_toml)?;
         window.apply(&mut reader)?;
-        let state = reader.initial;
-        Ok(Self { reader, aircraft, state, message: Vec::new(), together: true })
+        let state = first_state(&reader, &aircraft, &start)?;
+        let notes = Vec::new();
+        Ok(Self { reader, aircraft, state, message: Vec::new(), together: true, notes })
     }
 
     /// Flies the next tick; `None` at the end of the log, or of the window.
@@ -141,7 +174,7 @@ impl Reflight {
     /// # Errors
     /// When the log's messages do not make a flight.
     pub fn next_tick(&mut self) -> Result<Option<Reflown>, ReplayError> {
-        let Some(recorded) = self.reader.next_tick()? else { return Ok(None) };
+        let Some(mut recorded) = self.reader.next_tick()? else { return Ok(None) };
         // A compacted log was flown while it was read: once is enough while all is as recorded.
         let flown = self.reader.flown().filter(|_| self.together);
         let (state, outputs) = if let Some((state, outputs)) = flown {
@@ -153,6 +186,7 @@ impl Reflight {
         self.state = state;
         self.message.clear();
         cdr::append(&mut self.message, &state)?;
+        self.reader.fill(&mut recorded, &state)?;
         let mut exact = self.message == recorded.state_message;
         if self.reader.is_compacted() {
             exact &= self.together && (recorded.chained || self.reader.is_recorded());
@@ -166,8 +200,29 @@ impl Reflight {
         &self.message
     }
 
+    /// What stands between the log's version and this one; `None` when nothing does. Channels count
+    /// once a message of theirs was read.
+    ///
+    /// # Errors
+    /// Never, for the structs that are recorded.
+    pub fn versions(&self) -> Result<Option<Versions>, ReplayError> {
+        Ok(Versions::of(self)?)
+    }
+
     /// How the log ends, once it has been flown.
     pub fn ending(&self) -> Ending {
         self.reader.ending().cloned().unwrap_or(Ending::Truncated)
     }
+}
+
+/// The state at the start: the log's, and what the log lacks as the scenario has it.
+fn first_state(
+    reader: &FlightReader,
+    aircraft: &Aircraft,
+    start: &Start,
+) -> Result<State, ReplayError> {
+    if reader.has_todays_state() {
+        return Ok(reader.initial);
+    }
+    Ok(reader.initial_over(&start.state(aircraft).unwrap_or_default())?)
 }
