@@ -6,6 +6,7 @@
 use std::cell::Cell;
 use std::fs;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -17,6 +18,7 @@ use logs::{FlightWriter, Identity, Setup};
 use recorder::pilots::Pilot;
 use recorder::writer::{Item, Recording};
 use recorder::{Flight, Progress, fly};
+use replay::{Options, Window};
 
 fn main() {
     divan::main();
@@ -24,6 +26,8 @@ fn main() {
 
 /// Ticks of the flight that is reflown: a minute.
 const TICKS: u64 = 15_000;
+/// And of a long one: ten minutes.
+const LONG_TICKS: u64 = 150_000;
 
 fn ready() -> (Aircraft, Start) {
     let mut aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("our own file");
@@ -45,7 +49,7 @@ fn setup() -> Setup {
 }
 
 /// A flight by the hover pilot, as fast as it goes.
-fn flown(name: &str) -> (PathBuf, State) {
+fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
     let (aircraft, start) = ready();
     let pilot = Pilot::named("hover", &aircraft.cockpit).expect("it exists");
     let initial = start.state(&aircraft).expect("on its wheels");
@@ -62,7 +66,7 @@ fn flown(name: &str) -> (PathBuf, State) {
         out: out.clone(),
         force: true,
         real_time: false,
-        ticks_max: Some(TICKS),
+        ticks_max: Some(ticks),
         link: None,
         self_check: false,
     };
@@ -116,11 +120,76 @@ fn recording_has_room(tick: u64) {
 /// time.
 #[divan::bench(sample_count = 10, sample_size = 1)]
 fn verify_a_minute(bencher: Bencher) {
-    let (log, _) = flown("verify");
-    bencher.counter(ItemsCount::new(TICKS)).bench_local(|| {
-        replay::verify(&log, &replay::Options::default(), |_| ()).expect("a log").exact
-    });
+    let (log, _) = flown("verify", TICKS);
+    bencher
+        .counter(ItemsCount::new(TICKS))
+        .bench_local(|| replay::verify(&log, &Options::default(), |_| ()).expect("a log").exact);
     let _ = fs::remove_file(log);
+}
+
+/// Ten minutes of flight, and the same compacted: flown once for all that is done with them.
+fn ten_minutes() -> &'static (PathBuf, PathBuf) {
+    static LOGS: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
+    LOGS.get_or_init(|| {
+        let log = flown("long", LONG_TICKS).0;
+        let compact = scratch("long-compact");
+        let made = logs::compact::compact(&log, &compact, true, 500, replay::flown, |_| ());
+        let bytes = made.expect("a compacted log").bytes as f64;
+        eprintln!("compacted: {:.1} B a tick", bytes / LONG_TICKS as f64);
+        (log, compact)
+    })
+}
+
+/// Ten minutes verified. Items are ticks.
+#[divan::bench(sample_count = 2, sample_size = 1, args = ["whole", "compacted"])]
+fn verify_ten_minutes(bencher: Bencher, form: &str) {
+    let (whole, compact) = ten_minutes();
+    let log = if form == "whole" { whole } else { compact };
+    bencher
+        .counter(ItemsCount::new(LONG_TICKS))
+        .bench_local(|| replay::verify(log, &Options::default(), |_| ()).expect("a log").exact);
+}
+
+/// Ten minutes compacted.
+#[divan::bench(sample_count = 2, sample_size = 1)]
+fn compact_ten_minutes(bencher: Bencher) {
+    let (whole, _) = ten_minutes();
+    let out = scratch("compacted");
+    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| {
+        logs::compact::compact(whole, &out, true, 500, replay::flown, |_| ()).expect("a log")
+    });
+    let _ = fs::remove_file(out);
+}
+
+/// Ten minutes expanded, and the file compared with the one that was compacted.
+#[divan::bench(sample_count = 2, sample_size = 1)]
+fn expand_ten_minutes(bencher: Bencher) {
+    let (_, compact) = ten_minutes();
+    let out = scratch("expanded");
+    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| {
+        let copied = logs::compact::expand(compact, &out, true, replay::flown, |_| ());
+        assert_eq!(copied.expect("a log").same_file, Some(true));
+    });
+    let _ = fs::remove_file(out);
+}
+
+/// From nothing open to the first tick reflown, nine minutes into a flight of ten.
+#[divan::bench(sample_count = 50, sample_size = 1, args = ["whole", "compacted"])]
+fn start_in_the_ninth_minute(bencher: Bencher, form: &str) {
+    let (whole, compact) = ten_minutes();
+    let log = if form == "whole" { whole } else { compact };
+    let window = Window { from_tick: Some(135_123), until_tick: None, clamped: false };
+    bencher.bench_local(|| {
+        let mut flight = replay::Reflight::within(log, &window).expect("a log");
+        assert!(flight.next_tick().expect("a tick").expect("a tick").exact);
+    });
+}
+
+/// The same by way of a marker that is not there: every event of ten minutes is looked at.
+#[divan::bench(sample_count = 20, sample_size = 1)]
+fn look_for_a_marker_in_ten_minutes(bencher: Bencher) {
+    let (whole, _) = ten_minutes();
+    bencher.bench_local(|| logs::marker(whole, 7).is_err());
 }
 
 /// Yardstick: copying a megabyte.

@@ -46,10 +46,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if landing.log.is_err() {
         return Ok(ExitCode::from(report::LOG_CUT_SHORT));
     }
-    let status = verify::verify_one(out, &replay::Options::default());
+    let status = verify::verify_one(out);
     #[cfg(feature = "rerun")]
     {
-        let bytes = crate::view::save(out, &saved)?;
+        let bytes = crate::view::save(out, &saved, &replay::Window::default())?;
         say!("{}: {:.1} MB, for `rerun {0}`", saved.display(), bytes as f64 * 1e-6);
     }
     Ok(ExitCode::from(status))

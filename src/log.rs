@@ -1,7 +1,9 @@
 //! `tiltrotor log`.
 
 mod cat;
+mod compact;
 mod export;
+mod trim;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,6 +16,7 @@ use logs::{Ending, FlightReader, LogError, Messages};
 use recorder::statistics::Statistics;
 
 use crate::report;
+use crate::window::WindowArgs;
 
 /// What to do with a log.
 #[derive(clap::Subcommand)]
@@ -27,6 +30,19 @@ pub enum Command {
     Cat(cat::Args),
     /// Logs as tables, CSV or Parquet, units in the columns' names: a folder a channel, a file a flight
     Export(export::Args),
+    /// What an engineer reads of a flight: events, greatest values and when, touchdown, where it ended
+    Summary {
+        /// The log
+        log: PathBuf,
+        #[command(flatten)]
+        window: WindowArgs,
+    },
+    /// A part of a log as a log of its own, which names its parent; or as a golden flight
+    Trim(trim::Args),
+    /// Inputs, keyframes and digests kept, states dropped: they can be flown again
+    Compact(compact::CompactArgs),
+    /// The log that was compacted, to the byte
+    Expand(compact::ExpandArgs),
     /// A proper log from a broken one: every tick up to the first bad one
     Recover {
         /// The broken log
@@ -46,13 +62,22 @@ pub fn run(command: &Command) -> Result<ExitCode> {
         Command::Info { log } => info(log),
         Command::Cat(args) => cat::run(args),
         Command::Export(args) => export::run(args),
+        Command::Summary { log, window } => summary(log, window),
+        Command::Trim(args) => trim::run(args),
+        Command::Compact(args) => compact::compact(args),
+        Command::Expand(args) => compact::expand(args),
         Command::Recover { broken, out, force } => recover(broken, out, *force),
     }
 }
 
 fn info(log: &Path) -> Result<ExitCode> {
-    let mut reader = match FlightReader::open_across_versions(log) {
-        Err(LogError::Version { what, theirs, ours }) => {
+    // A compacted log is this version's, or nobody's.
+    let opened = match FlightReader::open_across_versions(log) {
+        Err(LogError::Compacted) => replay::open(log),
+        opened => opened,
+    };
+    let mut reader = match opened {
+        Err(LogError::Version { what, theirs, ours }) if what != "flight model" => {
             say!("{}: {what} {theirs}, and this program knows {ours}", log.display());
             return what_is_there(log);
         }
@@ -94,6 +119,9 @@ fn info(log: &Path) -> Result<ExitCode> {
     if start != 0 {
         say!("  {:<16} tick {start} ({:.3} s)", "begins at", start as f64 * STEP_S);
     }
+    if reader.is_compacted() {
+        say!("  {:<16} yes: most states are flown again while reading", "compacted");
+    }
     say!("  {:<16} {events}", "device events");
     say!("  {:<16} {} late ticks", "overruns", statistics.overruns);
     say!(
@@ -129,6 +157,13 @@ fn info(log: &Path) -> Result<ExitCode> {
     };
     say!("  {:<16} {ending}", "end of the log");
     Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
+}
+
+fn summary(log: &Path, window: &WindowArgs) -> Result<ExitCode> {
+    let window = window.of(log)?;
+    let summary = replay::summary(log, &window).with_context(|| log.display().to_string())?;
+    say!("{}: {summary}", log.display());
+    Ok(if summary.exact { ExitCode::SUCCESS } else { ExitCode::from(report::DIVERGED) })
 }
 
 fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {

@@ -29,6 +29,8 @@ mod report;
 mod trim;
 mod verify;
 mod view;
+mod whatif;
+mod window;
 
 use std::process::ExitCode;
 
@@ -55,6 +57,9 @@ enum Command {
     Diff(diff::Args),
     /// Show a log in the rerun viewer, or save it for the viewer.
     View(view::Args),
+    /// Refly the recorded inputs with changed parameters, or another aircraft, from a moment on, into a
+    /// new log.
+    Whatif(whatif::Args),
     /// What is in a log.
     #[command(subcommand)]
     Log(log::Command),
@@ -73,6 +78,7 @@ fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::View(args) => view::run(&args),
+        Command::Whatif(args) => whatif::run(&args),
         Command::Log(command) => log::run(&command),
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),

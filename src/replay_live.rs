@@ -11,6 +11,7 @@ use recorder::Pace;
 use replay::Reflight;
 
 use crate::report;
+use crate::window::WindowArgs;
 
 /// What to refly, and where to show it.
 #[derive(clap::Args)]
@@ -23,8 +24,10 @@ pub struct Args {
     /// Times real time
     #[arg(long, default_value_t = 1.0)]
     speed: f64,
+    #[command(flatten)]
+    window: WindowArgs,
     /// Fly a log of another version of the flight model too, as a comparison: exit 6, never 0
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["from", "until", "around"])]
     across_versions: bool,
 }
 
@@ -33,11 +36,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
+    let window = args.window.of(&args.log)?;
     let mut flight = match args.across_versions {
         true => Reflight::open_across_versions(&args.log),
-        false => Reflight::open(&args.log),
+        false => Reflight::within(&args.log, &window),
     }
     .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
+    let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);
     let mut ticks = 0;
@@ -51,14 +56,15 @@ pub fn run(args: &Args) -> Result<ExitCode> {
             first_difference = Some(ticks);
             complain!(
                 "tiltrotor: from {:.3} s on this is not the recorded flight; `tiltrotor verify` says more",
-                ticks as f64 * STEP_S
+                (start + ticks) as f64 * STEP_S
             );
         }
     }
     say!(
-        "{}: {:.1} s reflown at {} times real time, {} packets sent to {}, {} not",
+        "{}: {:.1} s reflown from {:.3} s on at {} times real time, {} packets sent to {}, {} not",
         args.log.display(),
         ticks as f64 * STEP_S,
+        start as f64 * STEP_S,
         args.speed,
         link.sent(),
         link.destination(),

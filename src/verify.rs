@@ -1,5 +1,6 @@
 //! `tiltrotor verify`: many logs on many threads, one report.
 
+mod bless;
 mod corpus;
 mod forms;
 mod recordings;
@@ -18,6 +19,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use replay::{Options, Outcome, Verdict, verify};
 
 use crate::report;
+use crate::window::WindowArgs;
 use corpus::Shard;
 
 /// Logs to be reflown.
@@ -45,14 +47,27 @@ pub struct Args {
 /// How each log is reflown.
 #[derive(clap::Args)]
 struct How {
+    #[command(flatten)]
+    window: WindowArgs,
+    /// Nothing is verified: what moved since each log was flown, and where, is said
+    #[arg(long, conflicts_with_all = ["from", "until", "around", "shard"])]
+    moved: bool,
+    /// The same, and each log is flown anew by its recorded inputs: after a deliberate change of the
+    /// model, for golden flights
+    #[arg(long, conflicts_with_all = ["from", "until", "around", "shard"])]
+    bless: bool,
+    /// Fly them with this aircraft file instead of their own
+    #[arg(long, value_name = "FILE")]
+    aircraft: Option<PathBuf>,
     /// Fly logs of other versions of the flight model too, as a comparison: exit 6, never 0
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["from", "until", "around"])]
     across_versions: bool,
 }
 
 impl How {
-    fn options(&self) -> Options {
-        Options { across_versions: self.across_versions, ..Options::default() }
+    fn options(&self, log: &Path) -> Result<Options> {
+        let (window, across_versions) = (self.window.of(log)?, self.across_versions);
+        Ok(Options { window, across_versions, ..Options::default() })
     }
 }
 
@@ -76,9 +91,12 @@ struct Verified {
 }
 
 impl Verified {
-    fn new(log: &Path, options: &Options, progress: impl FnMut(u64)) -> Self {
+    fn new(log: &Path, how: Option<&How>, progress: impl FnMut(u64)) -> Self {
         let started = Instant::now();
-        let verdict = verify(log, options, progress).map_err(|error| report::refusal(&error));
+        let options = how.map_or_else(|| Ok(Options::default()), |how| how.options(log));
+        let verdict = options.map_err(|error| format!("{error:#}")).and_then(|options| {
+            verify(log, &options, progress).map_err(|error| report::refusal(&error))
+        });
         Self { log: log.into(), verdict, took: started.elapsed() }
     }
 
@@ -170,8 +188,16 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     };
     let jobs = args.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZero::get);
     let jobs = jobs.min(logs.len()).max(1);
+    if args.how.bless || args.how.moved {
+        return bless::run(&logs, args.how.aircraft.as_deref(), args.how.bless);
+    }
+    if args.how.aircraft.is_some() {
+        anyhow::bail!(
+            "--aircraft: a log is verified with its own aircraft; it goes with --bless or --moved"
+        );
+    }
     let started = Instant::now();
-    let verified = verify_all(&logs, jobs, &args.how.options(), args.format == Format::Text);
+    let verified = verify_all(&logs, jobs, Some(&args.how), args.format == Format::Text);
     let run = Run { logs: verified, jobs, shard: args.shard, took: started.elapsed() };
     match args.format {
         Format::Text if several || run.logs.is_empty() => run.say_sum(),
@@ -186,14 +212,14 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 }
 
 /// Verifies a log, prints the verdict, and returns the exit status.
-pub fn verify_one(log: &Path, options: &Options) -> u8 {
-    let verified = verify_all(&[log.into()], 1, options, true);
+pub fn verify_one(log: &Path) -> u8 {
+    let verified = verify_all(&[log.into()], 1, None, true);
     verified.iter().map(Verified::status).fold(0, worse)
 }
 
 /// Verifies them on so many threads; each is told, in the order of the list, as soon as it and all
 /// before it are done.
-fn verify_all(logs: &[PathBuf], jobs: usize, options: &Options, tell: bool) -> Vec<Verified> {
+fn verify_all(logs: &[PathBuf], jobs: usize, how: Option<&How>, tell: bool) -> Vec<Verified> {
     // Draws itself on a terminal only.
     let bar = ProgressBar::new(logs.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{spinner} {pos} of {len} logs, {msg}") {
@@ -204,7 +230,7 @@ fn verify_all(logs: &[PathBuf], jobs: usize, options: &Options, tell: bool) -> V
     let done = Mutex::new(Done { logs: logs.iter().map(|_| None).collect(), told: 0 });
     let work = || {
         while let Some(log) = logs.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let verified = Verified::new(log, options, |flown| {
+            let verified = Verified::new(log, how, |flown| {
                 if flown.is_multiple_of(TICKS_PER_WORD) {
                     let all = ticks.fetch_add(TICKS_PER_WORD, Ordering::Relaxed) + TICKS_PER_WORD;
                     bar.set_message(format!("{:.0} s reflown", all as f64 * STEP_S));

@@ -19,6 +19,8 @@ pub struct Args {
     /// Overwrite an existing file
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    window: crate::window::WindowArgs,
 }
 
 #[cfg(feature = "rerun")]
@@ -28,8 +30,8 @@ mod with_rerun {
 
     use anyhow::{Context, bail};
     use engine::STEP_NS;
-    use replay::Reflight;
     use replay::view::{DrawError, FlightView, Level, Other, draw_against};
+    use replay::{Reflight, Window};
 
     use super::{Args, ExitCode, Result};
 
@@ -39,9 +41,15 @@ mod with_rerun {
         if saved.exists() && !args.force {
             bail!("{} exists; overwrite it with --force", saved.display());
         }
+        let window = args.window.of(&args.log)?;
         let bytes = match &args.against {
+            Some(_) if window != Window::default() => {
+                bail!(
+                    "--against shows whole flights; `tiltrotor log trim` makes logs of their parts"
+                )
+            }
             Some(other) => save_against(&args.log, Other::Log(other), &saved)?,
-            None => save(&args.log, &saved)?,
+            None => save(&args.log, &saved, &window)?,
         };
         say!("{}: {:.1} MB for rerun", saved.display(), bytes as f64 * 1e-6);
         if args.save.is_none() {
@@ -75,8 +83,9 @@ mod with_rerun {
     }
 
     /// Reflies the log into a recording; returns its size.
-    pub fn save(log: &Path, saved: &Path) -> Result<u64> {
-        let mut flight = Reflight::open(log).with_context(|| log.display().to_string())?;
+    pub fn save(log: &Path, saved: &Path, window: &Window) -> Result<u64> {
+        let mut flight =
+            Reflight::within(log, window).with_context(|| log.display().to_string())?;
         let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
         let mut view = FlightView::new(saved, &title)?;
         while let Some(reflown) = flight.next_tick()? {
@@ -101,7 +110,7 @@ pub use with_rerun::{run, save};
 /// Says what is missing.
 #[cfg(not(feature = "rerun"))]
 pub fn run(args: &Args) -> Result<ExitCode> {
-    let Args { log, against: _, save: _, force: _ } = args;
+    let Args { log, against: _, save: _, force: _, window: _ } = args;
     anyhow::bail!(
         "{}: this program was built without `rerun`; build it with the default features, or open the \
          log itself: `rerun {0}`",

@@ -11,12 +11,14 @@
 //! - What cannot be used is refused with file, line, key and what was expected: [`ConfigError`].
 
 mod check;
+mod edit;
 mod error;
 mod provenance;
 mod read;
 mod tree;
 pub mod units;
 
+pub use edit::{EditError, set};
 pub use error::{ConfigError, Problem};
 pub use provenance::{Provenance, Trust};
 

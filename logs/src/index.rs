@@ -7,10 +7,11 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+use mcap::records::Channel;
 use mcap::sans_io::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
 
 use crate::raw::{Raw, RawReader};
-use crate::reader::{RECORD_BYTES_MAX, last_word};
+use crate::reader::{Definition, RECORD_BYTES_MAX, last_word};
 use crate::records::{EVENTS, EventRecord, Happening, time_ns};
 use crate::setup::CLOSING;
 use crate::{LogError, cdr};
@@ -26,6 +27,9 @@ pub(crate) struct Place {
 /// The index at the end of a log.
 pub(crate) struct Index {
     pub chunks: Vec<Place>,
+    /// Message types and channels: a tool may have defined some in chunks that are passed by.
+    pub definitions: Vec<(u16, Definition)>,
+    pub channels: Vec<Channel>,
     closing: Option<u64>,
 }
 
@@ -62,7 +66,21 @@ impl Index {
             .collect();
         chunks.sort_by_key(|chunk| chunk.offset);
         let closing = summary.metadata_indexes.iter().find(|m| m.name == CLOSING).map(|m| m.offset);
-        Some(Self { chunks, closing })
+        let definition = |schema: &mcap::Schema<'_>| Definition {
+            name: schema.name.clone(),
+            encoding: schema.encoding.clone(),
+            text: schema.data.to_vec(),
+        };
+        let definitions = summary.schemas.values().map(|s| (s.id, definition(s))).collect();
+        let channel = |channel: &mcap::Channel<'_>| Channel {
+            id: channel.id,
+            schema_id: channel.schema.as_ref().map_or(0, |schema| schema.id),
+            topic: channel.topic.clone(),
+            message_encoding: channel.message_encoding.clone(),
+            metadata: channel.metadata.clone(),
+        };
+        let channels = summary.channels.values().map(|c| channel(c)).collect();
+        Some(Self { chunks, definitions, channels, closing })
     }
 
     /// The first chunk that reaches the tick, by its place in the list.

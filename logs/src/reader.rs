@@ -159,6 +159,19 @@ impl FlightReader {
         Self::of(Records::new(source))
     }
 
+    /// Opens a log, compacted or not, of whatever version of the flight model. The states of a
+    /// compacted one are then not those that were flown, but where [`FlightReader::is_recorded`].
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    pub fn open_across(path: &Path, open: Open) -> Result<Self, LogError> {
+        let mut records = Records::open(path, Some(open))?;
+        if let Some(expander) = &mut records.expander {
+            expander.across = true;
+        }
+        Self::of(records)
+    }
+
     fn of(mut records: Records) -> Result<Self, LogError> {
         let mut robot_description = String::new();
         let mut setup = Setup::default();
@@ -335,8 +348,9 @@ impl FlightReader {
         if closing.last != self.last || sealed && closing.messages.is_none() {
             return Ok(Ending::Truncated);
         }
-        // When the chain says that the flight is what was flown, it is something beside it.
-        let all_read = self.unbroken && !self.records.sought;
+        // When the chain says that the flight is what was flown, it is something beside it. What a
+        // compacted log says is guarded by a hash of its own, and what it does not say is made again.
+        let all_read = self.unbroken && !self.records.sought && !self.is_compacted();
         if sealed && all_read && closing.messages != Some(self.records.roll_call.digest()) {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, what any is \
@@ -468,7 +482,7 @@ impl FlightReader {
     }
 
     /// The last tick as the writer closed the log, or as far as it was read.
-    fn last_tick(&self) -> u64 {
+    pub fn last_tick(&self) -> u64 {
         self.closing.map_or(self.last.0, |closing| closing.last.0.max(self.last.0))
     }
 
@@ -713,10 +727,10 @@ struct Channel {
 
 /// What a channel's messages are, as the log says it.
 #[derive(Debug, Default, PartialEq, Eq)]
-struct Definition {
-    name: String,
-    encoding: String,
-    text: Vec<u8>,
+pub(crate) struct Definition {
+    pub name: String,
+    pub encoding: String,
+    pub text: Vec<u8>,
 }
 
 /// The parts of a file, in their order.
@@ -775,10 +789,18 @@ impl Records {
         if let Some(expander) = &mut self.expander {
             return expander.seek(tick);
         }
-        let Some(path) = &self.path else { return Ok(()) };
-        let Some(index) = Index::read(path) else { return Ok(()) };
+        let Some(path) = self.path.clone() else { return Ok(()) };
+        let Some(index) = Index::read(&path) else { return Ok(()) };
         let Some(place) = index.chunk_of(tick).filter(|&place| place > 0) else { return Ok(()) };
-        let mut file = File::open(path).map_err(LogError::Open)?;
+        for (id, definition) in index.definitions {
+            self.definitions.entry(id).or_insert_with(|| Arc::new(definition));
+        }
+        for channel in index.channels {
+            if !self.channels.contains_key(&channel.id) {
+                self.meet(channel);
+            }
+        }
+        let mut file = File::open(&path).map_err(LogError::Open)?;
         file.seek(SeekFrom::Start(index.chunks[place].offset))?;
         self.source = BufReader::with_capacity(BUFFER_BYTES, Box::new(file));
         // Chunks keep their own checksums; that of the whole file cannot be looked at any more.

@@ -208,7 +208,7 @@ pub(crate) struct Cursor {
 
 impl Cursor {
     pub(crate) fn open(path: &Path) -> Result<Self, LogError> {
-        let reader = FlightReader::open(path)?;
+        let reader = crate::refly::open(path)?;
         let (tick, state) = (reader.initial.tick, cdr::encode(&reader.initial)?);
         let now = Some(At { tick, state, led: None });
         Ok(Self { reader, start_tick: tick, last: (tick, 0), disorder: None, now })

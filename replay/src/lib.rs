@@ -1,21 +1,27 @@
 //! Rerunning a flight log: bit-exact verification, and the review in the rerun viewer.
 
+mod bless;
 pub mod compare;
 mod diff;
 mod divergence;
 pub mod growth;
 mod refly;
+mod rewrite;
 mod stage;
+mod summary;
 mod verify;
 mod versions;
 #[cfg(feature = "rerun")]
 pub mod view;
 
+pub use bless::{KEYFRAME_TICKS, Largest, Moved, beside, bless};
 pub use diff::{
     Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
 };
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
-pub use refly::{Reflight, Reflown, ReplayError};
+pub use refly::{Reflight, Reflown, ReplayError, Window, flown, messages, open};
+pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
 pub use stage::Stage;
+pub use summary::{At, Gathered, Summary, Touchdown, summary};
 pub use verify::{Options, Outcome, Verdict, verify};
 pub use versions::Versions;

@@ -10,7 +10,7 @@ use logs::{Ending, Identity, LogError, Recovery, Tick, cdr};
 use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
 use crate::growth::WINDOW_TICKS;
-use crate::refly::{Reflight, ReplayError};
+use crate::refly::{Reflight, ReplayError, Window};
 use crate::versions::Versions;
 
 /// How to verify.
@@ -18,13 +18,15 @@ use crate::versions::Versions;
 pub struct Options {
     /// Ticks that are still reflown after the first difference, to see how it grows.
     pub growth_ticks: u64,
+    /// The part of the log that is reflown.
+    pub window: Window,
     /// Fly logs of other versions of the flight model as well, as a comparison.
     pub across_versions: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { growth_ticks: WINDOW_TICKS, across_versions: false }
+        Self { growth_ticks: WINDOW_TICKS, window: Window::default(), across_versions: false }
     }
 }
 
@@ -47,6 +49,10 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
+    /// It ends where the window does, not where the log does.
+    pub windowed: bool,
+    /// The log is compacted: of most ticks, only the digest was kept.
+    pub compacted: bool,
     /// What stands between the log's version and this one; `None` when nothing does.
     pub versions: Option<Box<Versions>>,
     /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
@@ -130,6 +136,9 @@ impl Verdict {
                  cut, and what came after is lost"
                     .into(),
             ),
+            (Ending::Closed, _) if self.windowed => {
+                ("window", "there the part ends that was asked for".into())
+            }
             (Ending::Closed, _) => ("closed", "the log ends as its writer closed it".into()),
         }
     }
@@ -150,7 +159,7 @@ pub fn verify(
     let mut flight = if options.across_versions {
         Reflight::open_across_versions(path)?
     } else {
-        Reflight::open(path)?
+        Reflight::within(path, &options.window)?
     };
     let mut verdict = Verdict {
         start_tick: flight.state.tick,
@@ -161,6 +170,8 @@ pub fn verify(
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        windowed: false,
+        compacted: flight.reader.is_compacted(),
         versions: None,
         recovered: recovered(&flight.reader.identity),
     };
@@ -227,6 +238,7 @@ pub fn verify(
         watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
     }
     verdict.ending = flight.ending();
+    verdict.windowed = options.window.until_tick.is_some_and(|until| verdict.last_tick() >= until);
     verdict.versions = Versions::of(&flight)?.map(Box::new);
     Ok(verdict)
 }
@@ -288,9 +300,13 @@ impl fmt::Display for Verdict {
         if self.outcome() == Outcome::Exact {
             writeln!(
                 f,
-                "exact: all {} ticks ({:.1} s), digest {:016x}",
+                "exact: all {} ticks ({:.1} s){}, digest {:016x}",
                 self.ticks,
                 self.ticks as f64 * STEP_S,
+                match self.start_tick {
+                    0 => String::new(),
+                    tick => format!(" from {} on", when(tick)),
+                },
                 self.digest
             )?;
         }
@@ -316,6 +332,12 @@ impl fmt::Display for Verdict {
                 f,
                 "\nthe log was changed after the flight: its aircraft, cockpit map, scenario or \
                  first state is not what it was flown with"
+            )?,
+            Some(tick) if self.compacted => write!(
+                f,
+                "\nat {} the state, which a compacted log does not keep, has not the digest that was \
+                 kept: this program flies otherwise, or the log was changed after the flight",
+                when(tick)
             )?,
             Some(tick) => write!(
                 f,

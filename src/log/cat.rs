@@ -11,10 +11,12 @@ use engine::STEP_NS;
 use logs::fields::Value;
 use logs::layout::Layout;
 use logs::records::{EVENTS, HARDWARE};
-use logs::{Ending, Messages};
+use logs::{Ending, LogError, Messages};
+use replay::Window;
 use wildmatch::WildMatch;
 
 use crate::report;
+use crate::window::WindowArgs;
 
 /// What to print.
 #[derive(clap::Args)]
@@ -30,6 +32,8 @@ pub struct Args {
     /// Only every Nth tick; device events and happenings are printed all the same
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
+    #[command(flatten)]
+    window: WindowArgs,
 }
 
 /// What is printed of a channel: the places of its fields in the message, each behind its name. `None`
@@ -43,7 +47,17 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let mut choices: BTreeMap<String, Choice> = BTreeMap::new();
     let mut out = BufWriter::new(io::stdout().lock());
     let name = args.log.display();
-    let mut messages = Messages::open(&args.log).with_context(|| name.to_string())?;
+    let window = args.window.of(&args.log)?;
+    // What cannot be flown any more is still read by its own schema.
+    let opened = match Messages::open(&args.log) {
+        Err(LogError::Compacted) => replay::messages(&args.log),
+        opened => opened,
+    };
+    let mut messages = opened.with_context(|| name.to_string())?;
+    if window != Window::default() {
+        let (from, until) = (window.from_tick.unwrap_or(0), window.until_tick.unwrap_or(u64::MAX));
+        messages.limit(from, until).with_context(|| name.to_string())?;
+    }
     let mut line = String::new();
     for message in &mut messages {
         let (topic, Some(layout)) = (message.topic(), message.layout()) else { continue };

@@ -1,17 +1,17 @@
 //! Reading a compacted log as the log it was.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 
 use engine::{Outputs, State};
 use mcap::McapError;
-use mcap::records::{AttachmentHeader, MessageHeader, Metadata};
+use mcap::records::{AttachmentHeader, Channel, MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op, ROWS};
 use super::columns::Taker;
 use super::flier::{Flier, Flown, VIEWED};
-use super::{HEAD, ID, TAIL, VERSION};
+use super::{HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::index::Index;
 use crate::raw::{Fingerprint, Raw, RawReader};
 use crate::reader::refuse_other_versions;
@@ -29,8 +29,8 @@ pub(crate) struct Expander {
     raw: RawReader,
     open: Open,
     /// Whether a log of another version of the flight model is to be read.
-    across: bool,
-    /// The log's version of the flight model is not ours: nothing is flown again.
+    pub across: bool,
+    /// The log's flight model, or its aircraft file, is not for us: nothing is flown again.
     blind: bool,
     flier: Option<Flier>,
     /// The last recorded state's message, and the tick of the last state.
@@ -38,7 +38,11 @@ pub(crate) struct Expander {
     tick: u64,
     /// Records that come before anything else is read.
     ready: VecDeque<Raw>,
+    /// Channels of the log that was compacted, and of this file.
     ids: BTreeMap<String, u16>,
+    topics: BTreeMap<u16, String>,
+    /// Message types of the log.
+    schemas: BTreeSet<String>,
     /// Messages of the chunk so far that stand as they were.
     plain: VecDeque<Message>,
     block: Option<Unpacked>,
@@ -98,6 +102,8 @@ impl Expander {
             tick: 0,
             ready: [header].into(),
             ids: BTreeMap::new(),
+            topics: BTreeMap::new(),
+            schemas: BTreeSet::new(),
             plain: VecDeque::new(),
             block: None,
             skip_block: false,
@@ -164,10 +170,17 @@ impl Expander {
                 }
                 Some(Raw::Header { .. } | Raw::ChunkEnd) => {}
                 Some(Raw::Schema { id: ID, .. }) => {}
-                Some(Raw::Channel(channel)) if channel.id == ID => {}
-                Some(Raw::Channel(channel)) => {
-                    self.ids.insert(channel.topic.clone(), channel.id);
-                    return Ok(Some(Raw::Channel(channel)));
+                Some(raw @ (Raw::Schema { .. } | Raw::Channel(_))) => {
+                    if let Raw::Channel(channel) = &raw {
+                        self.topics.insert(channel.id, channel.topic.clone());
+                        if channel.topic == TOPIC {
+                            continue;
+                        }
+                    }
+                    // The log's own definitions came with its files.
+                    if self.begun && self.is_new(&raw) {
+                        return Ok(Some(raw));
+                    }
                 }
                 Some(Raw::Metadata(tail)) if tail.name == TAIL => self.tail = Some(Tail::of(&tail)),
                 Some(Raw::Metadata(record)) if record.name == METADATA => {
@@ -175,11 +188,14 @@ impl Expander {
                     return Ok(Some(Raw::Metadata(record)));
                 }
                 Some(Raw::Message(header, data)) => {
-                    add_to(&mut self.hash, &header, &data);
-                    if header.channel_id == ID {
+                    let topic = self.topics.get(&header.channel_id);
+                    let topic = topic.ok_or_else(|| broken("a channel is not there"))?.clone();
+                    add_to(&mut self.hash, &topic, &header, &data);
+                    if topic == TOPIC {
                         self.bytes(&data)?;
                     } else {
-                        self.plain.push_back((header, data));
+                        let channel_id = self.id(&topic)?;
+                        self.plain.push_back((MessageHeader { channel_id, ..header }, data));
                     }
                 }
                 Some(raw) => return Ok(Some(raw)),
@@ -193,16 +209,39 @@ impl Expander {
         if self.blind && self.across { Ok(()) } else { refuse_other_versions(&identity) }
     }
 
+    /// Whether a definition is not known yet; from now on it is.
+    fn is_new(&mut self, definition: &Raw) -> bool {
+        match definition {
+            Raw::Schema { name, .. } => self.schemas.insert(name.clone()),
+            Raw::Channel(channel) => {
+                let new = !self.ids.contains_key(&channel.topic);
+                self.ids.entry(channel.topic.clone()).or_insert(channel.id);
+                new
+            }
+            _ => false,
+        }
+    }
+
     /// Files, or a block.
     fn bytes(&mut self, data: &[u8]) -> Result<(), LogError> {
         let bytes = data.get(cdr::HEADER.len() + size_of::<u32>()..).unwrap_or_default();
         if !std::mem::replace(&mut self.begun, true) {
-            let attachments = files(bytes)?;
+            let (attachments, definitions) = head(bytes)?;
             let setup = setup_of(&attachments)?;
             if !self.blind {
-                self.flier = Some(Flier::new((self.open)(&setup)?));
+                match (self.open)(&setup) {
+                    Ok(flown) => self.flier = Some(Flier::new(flown)),
+                    // An aircraft file of another time: its keyframes can still be read.
+                    Err(_) if self.across => self.blind = true,
+                    Err(error) => return Err(error),
+                }
             }
             self.ready.extend(attachments.into_iter().map(|(h, data)| Raw::Attachment(h, data)));
+            for definition in definitions {
+                if self.is_new(&definition) {
+                    self.ready.push_back(definition);
+                }
+            }
             return Ok(());
         }
         let block = Block::decode(bytes)?;
@@ -385,8 +424,9 @@ fn stamped(channel_id: u16, tick: u64) -> MessageHeader {
 }
 
 /// Adds a message to the hash over all of them.
-pub(super) fn add_to(hash: &mut Xxh3Default, header: &MessageHeader, data: &[u8]) {
-    hash.update(&header.channel_id.to_le_bytes());
+pub(super) fn add_to(hash: &mut Xxh3Default, topic: &str, header: &MessageHeader, data: &[u8]) {
+    hash.update(&(topic.len() as u64).to_le_bytes());
+    hash.update(topic.as_bytes());
     hash.update(&header.sequence.to_le_bytes());
     hash.update(&header.log_time.to_le_bytes());
     hash.update(&header.publish_time.to_le_bytes());
@@ -394,21 +434,46 @@ pub(super) fn add_to(hash: &mut Xxh3Default, header: &MessageHeader, data: &[u8]
     hash.update(data);
 }
 
-/// The files that were attachments.
-fn files(bytes: &[u8]) -> Result<Vec<(AttachmentHeader, Vec<u8>)>, LogError> {
+type Files = Vec<(AttachmentHeader, Vec<u8>)>;
+
+/// The files that were attachments, and the definitions before the first message.
+fn head(bytes: &[u8]) -> Result<(Files, Vec<Raw>), LogError> {
     let mut from = Taker(bytes);
-    let count = from.count(5)?;
-    (0..count)
-        .map(|_| {
-            let (log_time, create_time) = (from.number()?, from.number()?);
-            let mut text = || -> Result<String, LogError> {
-                String::from_utf8(from.sized()?.to_vec()).map_err(|_| broken("a name is no text"))
-            };
-            let (name, media_type) = (text()?, text()?);
-            let header = AttachmentHeader { log_time, create_time, name, media_type };
-            Ok((header, from.sized()?.to_vec()))
-        })
-        .collect()
+    let mut files = Vec::new();
+    for _ in 0..from.count(5)? {
+        let (log_time, create_time) = (from.number()?, from.number()?);
+        let (name, media_type) = (text(&mut from)?, text(&mut from)?);
+        let header = AttachmentHeader { log_time, create_time, name, media_type };
+        files.push((header, from.sized()?.to_vec()));
+    }
+    let mut definitions = Vec::new();
+    for _ in 0..from.count(1)? {
+        definitions.push(match from.number()? {
+            0 => {
+                let (id, name, encoding) = (id(&mut from)?, text(&mut from)?, text(&mut from)?);
+                Raw::Schema { id, name, encoding, data: from.sized()?.to_vec() }
+            }
+            1 => {
+                let (id, schema_id) = (id(&mut from)?, id(&mut from)?);
+                let (topic, message_encoding) = (text(&mut from)?, text(&mut from)?);
+                let mut metadata = BTreeMap::new();
+                for _ in 0..from.count(2)? {
+                    metadata.insert(text(&mut from)?, text(&mut from)?);
+                }
+                Raw::Channel(Channel { id, schema_id, topic, message_encoding, metadata })
+            }
+            _ => return Err(broken("a definition of an unknown kind")),
+        });
+    }
+    Ok((files, definitions))
+}
+
+fn text(from: &mut Taker<'_>) -> Result<String, LogError> {
+    String::from_utf8(from.sized()?.to_vec()).map_err(|_| broken("a name is no text"))
+}
+
+fn id(from: &mut Taker<'_>) -> Result<u16, LogError> {
+    u16::try_from(from.number()?).map_err(|_| broken("a channel's number is too large"))
 }
 
 /// Those of them that a flight is reflown from.

@@ -64,8 +64,12 @@ pub fn compact(
             (Some(Raw::ChunkEnd), Some(pack)) => pack.block.ops.push(Op::ChunkEnd),
             (Some(Raw::ChunkEnd), None) => {}
             (Some(Raw::Metadata(record)), Some(_)) => tail.push(record),
+            // Our writer defines all channels first, other programs when they need them.
+            (Some(raw @ (Raw::Schema { .. } | Raw::Channel(_))), Some(pack)) => {
+                pack.define(&raw)?;
+            }
             (Some(_), Some(_)) => {
-                return Err(LogError::Order("channels or files after the first message".into()));
+                return Err(LogError::Order("files after the first message".into()));
             }
             (Some(raw), None) => head.take(raw)?,
         }
@@ -115,16 +119,42 @@ impl Head {
         Ok(())
     }
 
-    /// The attachments as bytes; they are texts, and as attachments they would not be compressed.
-    fn files(&self) -> Vec<u8> {
+    /// The attachments as bytes; they are texts, and as attachments they would not be compressed. Then
+    /// the channels: a tool that copies the compacted log leaves those out that have no message in it.
+    fn encode(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         put(&mut bytes, self.attachments.len() as u64);
         for (header, data) in &self.attachments {
             put(&mut bytes, header.log_time);
             put(&mut bytes, header.create_time);
             for part in [header.name.as_bytes(), header.media_type.as_bytes(), data] {
-                put(&mut bytes, part.len() as u64);
-                bytes.extend_from_slice(part);
+                put_sized(&mut bytes, part);
+            }
+        }
+        put(&mut bytes, self.definitions.len() as u64);
+        for raw in &self.definitions {
+            match raw {
+                Raw::Schema { id, name, encoding, data } => {
+                    put(&mut bytes, 0);
+                    put(&mut bytes, u64::from(*id));
+                    for part in [name.as_bytes(), encoding.as_bytes(), data] {
+                        put_sized(&mut bytes, part);
+                    }
+                }
+                Raw::Channel(channel) => {
+                    put(&mut bytes, 1);
+                    put(&mut bytes, u64::from(channel.id));
+                    put(&mut bytes, u64::from(channel.schema_id));
+                    for part in [&channel.topic, &channel.message_encoding] {
+                        put_sized(&mut bytes, part.as_bytes());
+                    }
+                    put(&mut bytes, channel.metadata.len() as u64);
+                    for part in channel.metadata.iter().flat_map(|(key, value)| [key, value]) {
+                        put_sized(&mut bytes, part.as_bytes());
+                    }
+                }
+                // Nothing else is taken for a definition.
+                _ => put(&mut bytes, 2),
             }
         }
         bytes
@@ -177,7 +207,6 @@ impl Pack {
         let schema = b"uint8[] data\n";
         to.add_schema_with_id(ID, "tiltrotor/msg/CompactBlock", "ros2msg", schema)?;
         to.add_channel_with_id(ID, ID, TOPIC, "cdr", &BTreeMap::new())?;
-        let mut topics = BTreeMap::new();
         let mut pack = Self {
             to,
             hash: Xxh3Default::new(),
@@ -189,21 +218,26 @@ impl Pack {
             states: 0,
             keyframe_ticks: keyframe_ticks.max(1),
         };
-        pack.write_bytes(0, &head.files())?;
+        pack.write_bytes(0, &head.encode())?;
         for raw in &head.definitions {
-            match raw {
-                Raw::Schema { id, name, encoding, data } => {
-                    pack.to.add_schema_with_id(*id, name, encoding, data)?;
-                }
-                Raw::Channel(channel) => {
-                    define(&mut pack.to, channel)?;
-                    only(&mut topics, channel)?;
-                }
-                _ => {}
-            }
+            pack.define(raw)?;
         }
-        pack.topics = topics;
         Ok(pack)
+    }
+
+    /// Takes over a message type or a channel.
+    fn define(&mut self, raw: &Raw) -> Result<(), LogError> {
+        match raw {
+            Raw::Schema { id, name, encoding, data } => {
+                self.to.add_schema_with_id(*id, name, encoding, data)?;
+            }
+            Raw::Channel(channel) => {
+                define(&mut self.to, channel)?;
+                only(&mut self.topics, channel)?;
+            }
+            _ => {}
+        }
+        Ok(())
     }
 
     fn message(&mut self, header: MessageHeader, data: Vec<u8>) -> Result<(), LogError> {
@@ -305,9 +339,15 @@ impl Pack {
     }
 
     fn write(&mut self, header: MessageHeader, data: &[u8]) -> Result<(), LogError> {
-        add_to(&mut self.hash, &header, data);
+        let topic = self.topics.get(&header.channel_id).map_or(TOPIC, String::as_str);
+        add_to(&mut self.hash, topic, &header, data);
         Ok(self.to.write_to_known_channel(&header, data)?)
     }
+}
+
+fn put_sized(bytes: &mut Vec<u8>, part: &[u8]) {
+    put(bytes, part.len() as u64);
+    bytes.extend_from_slice(part);
 }
 
 /// Whether the message carries the times and the number that our writer gives it.

@@ -16,7 +16,7 @@ use super::track::{RECORDED, REFLOWN, Track};
 use super::{Level, TICKS_PER_ROW, ViewError};
 use crate::compare::Names;
 use crate::diff::{At, Cursor};
-use crate::refly::{ReplayError, aircraft_of};
+use crate::refly::{ReplayError, read};
 use crate::stage::Stage;
 
 /// The flight beside the recorded one.
@@ -125,7 +125,7 @@ struct Flight {
 impl Flight {
     fn open(path: &Path) -> Result<Self, ReplayError> {
         let cursor = Cursor::open(path)?;
-        let aircraft = aircraft_of(&cursor.reader.setup)?;
+        let aircraft = read(&cursor.reader.setup)?.aircraft;
         Ok(Self { cursor, aircraft })
     }
 

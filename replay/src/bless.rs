@@ -1,0 +1,276 @@
+//! Golden flights after a deliberate change of the model: flown anew, and what moved.
+
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use engine::math::sqrt;
+use engine::{STEP_S, State};
+use logs::{Ending, FlightReader, Identity, LogError, cdr};
+
+use crate::compare::Names;
+use crate::refly::{ReplayError, flown, read};
+use crate::rewrite::{NewLog, parent, rewrite};
+use crate::summary::{Gathered, Touchdown};
+
+/// Ticks between the keyframes of a compacted golden flight. What moved is seen at keyframes only, so
+/// they are close.
+pub const KEYFRAME_TICKS: u64 = 50;
+
+/// How a golden flight moved.
+#[derive(Clone, Debug)]
+pub struct Moved {
+    /// The largest change of each group of fields that changed, in the order of the state.
+    pub groups: Vec<Largest>,
+    /// First tick with a change, as far as states were kept.
+    pub first_tick: Option<u64>,
+    /// Ticks between states that were kept; 1 in a log that is not compacted.
+    pub seen_every_ticks: u64,
+    /// Last states, before and now.
+    pub ends: (State, State),
+    /// Touchdowns: ticks before, and now.
+    pub touchdowns: (Vec<u64>, Vec<Touchdown>),
+    /// Last digests, before and now.
+    pub digests: (u64, u64),
+    /// Versions of the model, before and now.
+    pub models: (String, &'static str),
+    /// Size of the new log, bytes.
+    pub bytes: u64,
+}
+
+/// The largest change of a group of fields.
+#[derive(Clone, Debug)]
+pub struct Largest {
+    /// Which one of them.
+    pub path: String,
+    /// Its unit; empty for a count or a flag.
+    pub unit: String,
+    /// When.
+    pub tick: u64,
+    /// Before.
+    pub before: String,
+    /// Now.
+    pub now: String,
+    absolute: f64,
+}
+
+/// Flies a golden flight anew by its recorded inputs, and says what moved. A flight from tick 0 begins
+/// as its scenario says, a later one with its first recorded state. With `write`, the new flight takes
+/// the place of the old one, whose parent and reason it keeps. `aircraft_toml` is for flights whose own
+/// aircraft file is out of date.
+///
+/// # Errors
+/// When the log is damaged, was changed or never closed: only deliberate motion is blessed.
+pub fn bless(
+    log: &Path,
+    identity: Identity,
+    aircraft_toml: Option<&str>,
+    write: bool,
+) -> Result<Moved, ReplayError> {
+    let mut reader = FlightReader::open_across(log, flown)?;
+    if !reader.intact {
+        return Err(refused("its files or its first state were changed after the flight"));
+    }
+    let mut setup = reader.setup.clone();
+    if let Some(text) = aircraft_toml {
+        setup.aircraft_toml = text.into();
+    }
+    if let Err(error) = read(&setup) {
+        let what = format!("the log's {error}; --aircraft FILE flies it with a file of today");
+        return Err(refused(&what));
+    }
+    let initial = if reader.initial.tick == 0 {
+        let aircraft = read(&setup)?.aircraft;
+        aircraft::start("scenario.toml", &setup.scenario_toml)?.state(&aircraft)?
+    } else {
+        reader.initial
+    };
+    let before = logs::closing(log).map_or(0, |(_, digest)| digest);
+    let identity = inherited(identity, &reader.identity, before);
+    let temporary = beside(log, "new");
+    let new =
+        NewLog { out: &temporary, force: true, setup: &setup, identity: &identity, timing: true };
+    let names = Names::of::<State>()?;
+    let mut seen = Seen::new(&names, &reader.initial);
+    seen.compare(&reader.initial, &initial)?;
+    let compacted = reader.is_compacted();
+    let models = (reader.identity.get(Identity::MODEL).to_string(), engine::MODEL_VERSION);
+    let mut altered = None;
+    let mut failure = None;
+    let mut gathered = Gathered::from(&initial);
+    let rewritten = rewrite(&mut reader, &initial, &new, |tick, state, outputs, reader| {
+        gathered.add(state, outputs);
+        // Of a compacted log, the chain can only be formed by the model that flew it.
+        if !tick.chained && !compacted {
+            altered.get_or_insert(tick.record.state.tick);
+        }
+        if reader.is_recorded()
+            && let Err(error) = seen.compare(&tick.record.state, state)
+        {
+            failure.get_or_insert(error);
+        }
+    })?;
+    let clean_up = |error| {
+        let _ = fs::remove_file(&temporary);
+        error
+    };
+    if let Some(error) = failure {
+        return Err(clean_up(error.into()));
+    }
+    if let Some(tick) = altered {
+        let what = format!("it was changed after the flight: the digest breaks at tick {tick}");
+        return Err(clean_up(refused(&what)));
+    }
+    match reader.ending() {
+        Some(Ending::Closed) => {}
+        Some(Ending::Damaged(why)) => return Err(clean_up(refused(&format!("damaged: {why}")))),
+        _ => return Err(clean_up(refused("it was never closed"))),
+    }
+    let mut moved = Moved {
+        groups: seen.largest.into_iter().flatten().collect(),
+        first_tick: seen.first_tick,
+        seen_every_ticks: if compacted { KEYFRAME_TICKS } else { 1 },
+        ends: seen.ends,
+        touchdowns: (rewritten.touchdown_ticks, gathered.touchdowns),
+        digests: (before, rewritten.closed.digest),
+        models,
+        bytes: rewritten.closed.bytes,
+    };
+    // What is the same already stays as it is.
+    if write && !(moved.is_same() && moved.models.0 == moved.models.1) {
+        moved.bytes = take_place(log, &temporary, compacted).map_err(clean_up)?;
+    }
+    let _ = fs::remove_file(&temporary);
+    Ok(moved)
+}
+
+/// Puts the new flight where the old one is, in the old one's form; returns its size.
+fn take_place(log: &Path, new: &Path, compacted: bool) -> Result<u64, ReplayError> {
+    let failed = |error| ReplayError::from(LogError::Io(error));
+    if !compacted {
+        fs::rename(new, log).map_err(failed)?;
+        return Ok(fs::metadata(log).map_err(failed)?.len());
+    }
+    let packed = beside(log, "compact");
+    let copied = logs::compact::compact(new, &packed, true, KEYFRAME_TICKS, flown, |_| ())?;
+    fs::rename(&packed, log).map_err(failed)?;
+    Ok(copied.bytes)
+}
+
+/// A file beside another one.
+pub fn beside(log: &Path, what: &str) -> PathBuf {
+    let mut name = log.as_os_str().to_owned();
+    name.push(format!(".{what}"));
+    name.into()
+}
+
+fn refused(what: &str) -> ReplayError {
+    ReplayError::Refused(format!("not blessed: {what}"))
+}
+
+/// Who flies now, with what the flight was made from and is kept for.
+fn inherited(identity: Identity, old: &Identity, before: u64) -> Identity {
+    use parent::{CHANGES, DIGEST, DIGEST_AT_START, FROM_TICK, MADE_BY, NAME, REASON};
+    let kept = [MADE_BY, NAME, DIGEST, DIGEST_AT_START, FROM_TICK, CHANGES, REASON];
+    kept.into_iter()
+        .filter_map(|key| Some((key, old.0.get(key)?)))
+        .fold(identity, |identity, (key, value)| identity.with(key, value))
+        .with(parent::BLESSED_FROM, format!("{before:016x}"))
+}
+
+/// What has been seen to move.
+struct Seen<'a> {
+    names: &'a Names,
+    largest: Vec<Option<Largest>>,
+    first_tick: Option<u64>,
+    ends: (State, State),
+}
+
+impl<'a> Seen<'a> {
+    fn new(names: &'a Names, initial: &State) -> Self {
+        let largest = names.groups.iter().map(|_| None).collect();
+        let ends = (*initial, *initial);
+        Self { names, largest, first_tick: None, ends }
+    }
+
+    fn compare(&mut self, before: &State, now: &State) -> Result<(), LogError> {
+        let messages = (cdr::encode(before)?, cdr::encode(now)?);
+        for difference in self.names.differences(&messages.0, &messages.1) {
+            let absolute = difference.absolute();
+            self.first_tick.get_or_insert(before.tick);
+            let largest = &mut self.largest[difference.name.group];
+            if largest.as_ref().is_none_or(|largest| absolute > largest.absolute) {
+                *largest = Some(Largest {
+                    path: difference.name.path.clone(),
+                    unit: difference.name.unit.clone(),
+                    tick: before.tick,
+                    before: difference.a.to_string(),
+                    now: difference.b.to_string(),
+                    absolute,
+                });
+            }
+        }
+        self.ends = (*before, *now);
+        Ok(())
+    }
+}
+
+impl Moved {
+    /// Whether every state that was kept is the same, and the digest.
+    pub fn is_same(&self) -> bool {
+        self.first_tick.is_none() && self.digests.0 == self.digests.1
+    }
+}
+
+fn s(tick: u64) -> f64 {
+    tick as f64 * STEP_S
+}
+
+impl fmt::Display for Moved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_same() {
+            return write!(f, "nothing moved: the same bits, digest {:016x}", self.digests.0);
+        }
+        let (before, now) = (&self.ends.0.plant, &self.ends.1.plant);
+        let first = self.first_tick.unwrap_or(0);
+        let every = if self.seen_every_ticks == 1 {
+            String::new()
+        } else {
+            format!(
+                ", seen every {} ticks ({:.3} s)",
+                self.seen_every_ticks,
+                s(self.seen_every_ticks)
+            )
+        };
+        writeln!(f, "moved from tick {first} ({:.3} s) on{every}", s(first))?;
+        if self.models.0 != self.models.1 {
+            writeln!(f, "  flight model   {} -> {}", self.models.0, self.models.1)?;
+        }
+        writeln!(f, "  {:<48} {:>12}  at", "largest change by field", "")?;
+        for group in &self.groups {
+            writeln!(
+                f,
+                "  {:<48} {:>12.5e} {:<6} {:>9.3} s  ({} -> {})",
+                group.path,
+                group.absolute,
+                group.unit,
+                s(group.tick),
+                group.before,
+                group.now
+            )?;
+        }
+        let apart = now.position_m - before.position_m;
+        let distance = sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z);
+        writeln!(
+            f,
+            "  last position  {distance:.4} m apart: {:+.4} m north, {:+.4} m east, {:+.4} m up",
+            apart.x, apart.y, -apart.z
+        )?;
+        let old: Vec<_> =
+            self.touchdowns.0.iter().map(|tick| format!("{:.3} s", s(*tick))).collect();
+        let new: Vec<_> = self.touchdowns.1.iter().map(ToString::to_string).collect();
+        let list = |list: &[String]| if list.is_empty() { "none".into() } else { list.join("; ") };
+        writeln!(f, "  touchdown      {} -> {}", list(&old), list(&new))?;
+        write!(f, "  digest         {:016x} -> {:016x}", self.digests.0, self.digests.1)
+    }
+}

@@ -1,0 +1,170 @@
+//! A new log from the inputs of another one: what-if, trimming and blessing are all this.
+
+use std::path::Path;
+
+use engine::inputs::World;
+use engine::{Aircraft, Inputs, Outputs, State, step};
+use logs::records::{EventRecord, Happening};
+use logs::view::{Level, Remark};
+use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Setup, Tick};
+
+use crate::refly::{ReplayError, read};
+
+/// Keys of a log's metadata that say what it was made from.
+pub mod parent {
+    /// What made it: `whatif`, `trim`, `bless`.
+    pub const MADE_BY: &str = "made_by";
+    /// File name of the log whose inputs it has.
+    pub const NAME: &str = "parent";
+    /// That log's last digest.
+    pub const DIGEST: &str = "parent_digest";
+    /// That log's digest at the state with which this one begins.
+    pub const DIGEST_AT_START: &str = "parent_digest_at_start";
+    /// Tick of that state.
+    pub const FROM_TICK: &str = "parent_from_tick";
+    /// What was changed.
+    pub const CHANGES: &str = "changes";
+    /// What it is kept for.
+    pub const REASON: &str = "reason";
+    /// The last digest before it was blessed.
+    pub const BLESSED_FROM: &str = "blessed_from_digest";
+}
+
+/// The log to be written.
+pub struct NewLog<'a> {
+    /// Where.
+    pub out: &'a Path,
+    /// Whether a file there may be overwritten.
+    pub force: bool,
+    /// What it is flown with.
+    pub setup: &'a Setup,
+    /// Who flies.
+    pub identity: &'a Identity,
+    /// Whether to take over how the ticks kept time.
+    pub timing: bool,
+}
+
+/// A log that was written.
+#[derive(Clone, Debug)]
+pub struct Rewritten {
+    /// Its size and last digest.
+    pub closed: Closed,
+    /// Ticks at which the wheels took weight in the log whose inputs it has.
+    pub touchdown_ticks: Vec<u64>,
+}
+
+/// The facts that name a parent: `log` as it stands where `reader` begins.
+pub fn names_parent(identity: Identity, log: &Path, reader: &FlightReader, by: &str) -> Identity {
+    let name = log.file_name().map_or_else(String::new, |name| name.display().to_string());
+    let digest =
+        logs::closing(log).map_or("unknown".into(), |(_, digest)| format!("{digest:016x}"));
+    identity
+        .with(parent::MADE_BY, by)
+        .with(parent::NAME, name)
+        .with(parent::DIGEST, digest)
+        .with(parent::DIGEST_AT_START, format!("{:016x}", reader.digest()))
+        .with(parent::FROM_TICK, reader.initial.tick.to_string())
+}
+
+/// Flies the inputs of `reader`, from where it stands, with the aircraft of the new log, from `initial`
+/// on, and writes all of it. `watch` sees every tick: as recorded, the state flown, and what could be
+/// observed. When anything fails, no file is left.
+///
+/// # Errors
+/// When the files of the new log cannot be read, the old one is not a whole flight as far as it is
+/// read, or the new one cannot be written.
+pub fn rewrite(
+    reader: &mut FlightReader,
+    initial: &State,
+    new: &NewLog<'_>,
+    mut watch: impl FnMut(&Tick, &State, &Outputs, &FlightReader),
+) -> Result<Rewritten, ReplayError> {
+    let flown = read(new.setup)?;
+    let aircraft = &flown.aircraft;
+    let mut writer = FlightWriter::create(
+        new.out,
+        new.setup,
+        new.identity,
+        aircraft,
+        &reader.robot_description,
+        initial,
+        new.force,
+    )?;
+    let mut touchdown_ticks = Vec::new();
+    let mut written = || -> Result<(), ReplayError> {
+        let mut narrator = Narrator::new(initial);
+        let mut state = *initial;
+        if state.tick == 0 {
+            show_start(&mut writer, aircraft, &state, flown.world)?;
+        }
+        while let Some(tick) = reader.next_tick()? {
+            for event in &tick.events {
+                writer.event(event)?;
+                narrator.event(&mut writer, event)?;
+            }
+            writer.inputs(&tick.inputs)?;
+            narrator.inputs(&mut writer, &tick.inputs)?;
+            crew_said(reader, &mut writer, &mut touchdown_ticks)?;
+            let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
+            let (next, outputs) = step(aircraft, &state, &inputs);
+            state = next;
+            writer.state(&state)?;
+            narrator.state(&mut writer, &state)?;
+            for timing in reader.timings.drain(..).filter(|_| new.timing) {
+                writer.timing(&timing)?;
+            }
+            writer.view(&outputs, state.plant.attitude)?;
+            narrator.outputs(&mut writer, &outputs)?;
+            watch(&tick, &state, &outputs, reader);
+        }
+        crew_said(reader, &mut writer, &mut touchdown_ticks)?;
+        match reader.ending() {
+            Some(Ending::Damaged(why)) => Err(LogError::Order(format!("damaged: {why}")).into()),
+            _ => Ok(()),
+        }
+    };
+    let result = written();
+    let closed = match result {
+        Ok(()) => writer.finish().map_err(ReplayError::from),
+        Err(error) => {
+            drop(writer);
+            Err(error)
+        }
+    };
+    if closed.is_err() {
+        let _ = std::fs::remove_file(new.out);
+    }
+    Ok(Rewritten { closed: closed?, touchdown_ticks })
+}
+
+/// What there was to be seen before the first tick.
+fn show_start(
+    writer: &mut FlightWriter,
+    aircraft: &Aircraft,
+    state: &State,
+    world: World,
+) -> Result<(), LogError> {
+    let inputs = Inputs { events: &[], world: World { paused: 1, ..world } };
+    let outputs = Outputs { tick: state.tick, ..step(aircraft, state, &inputs).1 };
+    writer.view(&outputs, state.plant.attitude)
+}
+
+/// Takes over what only the crew could know; everything else is told anew from the numbers.
+fn crew_said(
+    reader: &mut FlightReader,
+    writer: &mut FlightWriter,
+    touchdown_ticks: &mut Vec<u64>,
+) -> Result<(), LogError> {
+    let remarks: Vec<Remark> = reader.remarks.drain(..).collect();
+    let happenings: Vec<EventRecord> = reader.happenings.drain(..).collect();
+    let touchdown =
+        |event: &&EventRecord| event.kind == Happening::WeightOnWheels as u64 && event.value == 1;
+    touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
+    for (event, remark) in happenings.iter().zip(&remarks) {
+        if let Some(what @ (Happening::Phase | Happening::Landed)) = Happening::from_u64(event.kind)
+        {
+            writer.happened(event.tick, what, event.value, Level::Info, &remark.words)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,208 @@
+//! What an engineer reads of a flight: what happened, the greatest values and when, how it touched down,
+//! where it ended.
+
+use std::fmt;
+use std::path::Path;
+
+use engine::math::{PI, max, sqrt, square};
+use engine::{Outputs, STEP_S, State};
+use logs::FlightReader;
+use logs::view::Remark;
+
+use crate::refly::{Reflight, ReplayError, Window};
+
+/// Names of the extremes, their units, and how they are read off.
+type Reading = (&'static str, &'static str, fn(&Outputs) -> f64);
+
+const DEG: f64 = 180.0 / PI;
+const KT: f64 = 3600.0 / 1852.0;
+const FPM: f64 = 60.0 / 0.3048;
+
+const READINGS: [Reading; 11] = [
+    ("height", "m", |o| o.height_above_ground_m),
+    ("true airspeed", "kt", |o| o.airspeed_mps * KT),
+    ("climb", "ft/min", |o| -o.velocity_mps.z * FPM),
+    ("load factor", "g", |o| o.load_factor),
+    ("roll", "deg", |o| o.euler.roll_rad * DEG),
+    ("pitch", "deg", |o| o.euler.pitch_rad * DEG),
+    ("yaw rate", "deg/s", |o| o.angular_rate_radps.z * DEG),
+    ("nacelle", "deg", |o| 90.0 - o.actuators.mast_tilt_rad.mean() * DEG),
+    ("rotor speed", "rpm", |o| o.rotor_speed_radps * 30.0 / PI),
+    ("power", "kW", |o| o.engines.power_w.sum() * 1e-3),
+    ("flapping", "deg", |o| {
+        let tilt = o.rotors.map(|r| sqrt(square(r.tilt_aft_rad) + square(r.tilt_outboard_rad)));
+        max(tilt.left, tilt.right) * DEG
+    }),
+];
+
+/// A value, and its tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// Tick.
+    pub tick: u64,
+    /// Value.
+    pub value: f64,
+}
+
+/// The wheels took weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touchdown {
+    /// Tick.
+    pub tick: u64,
+    /// Downwards, just before.
+    pub sink_mps: f64,
+    /// Over the ground.
+    pub speed_mps: f64,
+    /// From the origin.
+    pub north_m: f64,
+    /// From the origin.
+    pub east_m: f64,
+}
+
+/// Gathers what is read of a flight, tick by tick.
+#[derive(Clone, Debug, Default)]
+pub struct Gathered {
+    extremes: Vec<(At, At)>,
+    /// Each time the wheels took weight.
+    pub touchdowns: Vec<Touchdown>,
+    before: Option<State>,
+}
+
+impl Gathered {
+    /// Begins with a state.
+    pub fn from(initial: &State) -> Self {
+        Self { before: Some(*initial), ..Self::default() }
+    }
+
+    /// Adds a tick.
+    pub fn add(&mut self, state: &State, outputs: &Outputs) {
+        let first = self.extremes.is_empty();
+        for (number, (_, _, read)) in READINGS.iter().enumerate() {
+            let at = At { tick: outputs.tick, value: read(outputs) };
+            if first {
+                self.extremes.push((at, at));
+                continue;
+            }
+            let (least, greatest) = &mut self.extremes[number];
+            if at.value < least.value {
+                *least = at;
+            }
+            if at.value > greatest.value {
+                *greatest = at;
+            }
+        }
+        if let Some(before) = self.before.replace(*state)
+            && before.plant.weight_on_wheels == 0
+            && state.plant.weight_on_wheels != 0
+        {
+            let (at, was) = (&state.plant, &before.plant);
+            self.touchdowns.push(Touchdown {
+                tick: state.tick,
+                sink_mps: was.velocity_mps.z,
+                speed_mps: sqrt(square(was.velocity_mps.x) + square(was.velocity_mps.y)),
+                north_m: at.position_m.x,
+                east_m: at.position_m.y,
+            });
+        }
+    }
+}
+
+/// What is read of a flight.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// First tick.
+    pub first_tick: u64,
+    /// Last state.
+    pub last: State,
+    /// What happened, in words.
+    pub remarks: Vec<Remark>,
+    /// Greatest and least values, touchdowns.
+    pub gathered: Gathered,
+    /// Last digest.
+    pub digest: u64,
+    /// Whether all of it reflies to the same bits.
+    pub exact: bool,
+}
+
+/// Reflies a log, or a part of it, and sums it up.
+///
+/// # Errors
+/// When it cannot be reflown.
+pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
+    let mut flight = Reflight::within(log, window)?;
+    let mut gathered = Gathered::from(&flight.state);
+    let mut exact = true;
+    let first_tick = flight.state.tick;
+    while let Some(reflown) = flight.next_tick()? {
+        gathered.add(&flight.state, &reflown.outputs);
+        exact &= reflown.exact && reflown.recorded.chained;
+        flight.reader.timings.clear();
+    }
+    let FlightReader { remarks, .. } = &mut flight.reader;
+    let remarks = std::mem::take(remarks);
+    let digest = flight.reader.digest();
+    Ok(Summary { first_tick, last: flight.state, remarks, gathered, digest, exact })
+}
+
+fn s(tick: u64) -> f64 {
+    tick as f64 * STEP_S
+}
+
+/// To a thousandth, and never as −0.
+fn shown(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ticks = self.last.tick - self.first_tick;
+        let (from, to) = (s(self.first_tick), s(self.last.tick));
+        writeln!(f, "{ticks} ticks, {from:.3} s to {to:.3} s")?;
+        for remark in &self.remarks {
+            writeln!(f, "{:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words)?;
+        }
+        for ((name, unit, _), (least, greatest)) in READINGS.iter().zip(&self.gathered.extremes) {
+            writeln!(
+                f,
+                "{name:<14} {:>10.3} {unit} at {:.3} s to {:.3} {unit} at {:.3} s",
+                shown(least.value),
+                s(least.tick),
+                shown(greatest.value),
+                s(greatest.tick)
+            )?;
+        }
+        for touchdown in &self.gathered.touchdowns {
+            writeln!(f, "touchdown      {touchdown}")?;
+        }
+        let at = &self.last.plant;
+        let euler = at.attitude.euler();
+        writeln!(
+            f,
+            "at the end     {:.3} m north, {:.3} m east, {:.3} m up; roll {:.3} deg, pitch {:.3} deg, \
+             heading {:.3} deg; fuel {:.3} kg",
+            shown(at.position_m.x),
+            shown(at.position_m.y),
+            shown(-at.position_m.z),
+            shown(euler.roll_rad * DEG),
+            shown(euler.pitch_rad * DEG),
+            (euler.heading_rad * DEG).rem_euclid(360.0),
+            at.fuel_kg
+        )?;
+        let exact = if self.exact { "exact" } else { "NOT EXACT: `tiltrotor verify` says more" };
+        write!(f, "digest         {:016x}, {exact}", self.digest)
+    }
+}
+
+impl fmt::Display for Touchdown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "at {:.3} s, sinking {:.3} m/s, {:.3} m/s over the ground, {:.2} m north, {:.2} m east",
+            s(self.tick),
+            self.sink_mps,
+            self.speed_mps,
+            self.north_m,
+            self.east_m
+        )
+    }
+}

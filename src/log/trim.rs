@@ -1,0 +1,146 @@
+//! `tiltrotor log trim`.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use engine::STEP_S;
+use replay::{KEYFRAME_TICKS, NewLog, Window, beside, names_parent, parent, rewrite};
+
+use crate::identity;
+use crate::whatif::refuse_itself;
+use crate::window::WindowArgs;
+
+/// Where golden flights live.
+const GOLDEN: &str = "tests/golden";
+/// A golden flight larger than this does not belong into a repository.
+const GOLDEN_BYTES_MAX: u64 = 300_000;
+
+/// What to keep.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The log
+    log: PathBuf,
+    #[command(flatten)]
+    window: WindowArgs,
+    /// The new log [default: LOG with -trim]
+    #[arg(long, value_name = "FILE", conflicts_with = "as_golden")]
+    out: Option<PathBuf>,
+    /// Make a golden flight of it: tests/golden/NAME.mcap, compacted, in its README, verified by the
+    /// tests
+    #[arg(long, value_name = "NAME", requires = "reason")]
+    as_golden: Option<String>,
+    /// What it is kept for
+    #[arg(long, value_name = "TEXT")]
+    reason: Option<String>,
+    /// Overwrite an existing file
+    #[arg(long)]
+    force: bool,
+}
+
+/// Cuts the part out, flies it, and writes it.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let window = args.window.of(&args.log)?;
+    let Some(name) = &args.as_golden else {
+        let stem = args.log.file_stem().unwrap_or_default().display().to_string();
+        let name = format!("{stem}-trim.mcap");
+        let out = args.out.clone().unwrap_or_else(|| args.log.with_file_name(name));
+        let (ticks, bytes) = cut(args, &window, &out, args.force, true)?;
+        told(&out, ticks, bytes);
+        return Ok(ExitCode::SUCCESS);
+    };
+    let letters = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if name.is_empty() || !name.chars().all(letters) {
+        bail!("--as-golden {name}: expected letters, digits, - and _");
+    }
+    let reason = args.reason.as_deref().unwrap_or_default().trim();
+    if reason.is_empty() || reason.contains('\n') {
+        bail!("--reason: expected a line that says what the flight is kept for");
+    }
+    let folder = Path::new(GOLDEN);
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {GOLDEN}"))?;
+    let out = folder.join(format!("{name}.mcap"));
+    if out.exists() && !args.force {
+        bail!("{} exists; name another, or overwrite it with --force", out.display());
+    }
+    let whole = beside(&out, "whole");
+    let golden = || -> Result<(u64, u64)> {
+        let (ticks, _) = cut(args, &window, &whole, true, false)?;
+        let made =
+            logs::compact::compact(&whole, &out, args.force, KEYFRAME_TICKS, replay::flown, |_| ())
+                .with_context(|| out.display().to_string())?;
+        Ok((ticks, made.bytes))
+    };
+    let made = golden();
+    let _ = fs::remove_file(&whole);
+    let (ticks, bytes) = made?;
+    told(&out, ticks, bytes);
+    if bytes > GOLDEN_BYTES_MAX {
+        let kb = GOLDEN_BYTES_MAX as f64 * 1e-3;
+        complain!("tiltrotor: that is more than {kb:.0} kB: a shorter window would do as well");
+    }
+    enter(&folder.join("README.md"), name, reason)?;
+    say!("`cargo test --no-default-features --test golden` verifies it");
+    Ok(ExitCode::SUCCESS)
+}
+
+fn told(out: &Path, ticks: u64, bytes: u64) {
+    let (flown_s, kb) = (ticks as f64 * STEP_S, bytes as f64 * 1e-3);
+    say!(
+        "{}: {ticks} ticks ({flown_s:.3} s), {kb:.1} kB, flown to the recorded bits",
+        out.display()
+    );
+}
+
+/// Writes the part as a log of its own; returns its ticks and its size.
+fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> Result<(u64, u64)> {
+    let log = &args.log;
+    refuse_itself(log, out)?;
+    let name = || log.display().to_string();
+    let mut reader = replay::open(log).with_context(name)?;
+    if !reader.intact {
+        bail!("{}: not cut: its files or its first state were changed after the flight", name());
+    }
+    window.apply(&mut reader).with_context(name)?;
+    let mut identity = names_parent(identity::identity(), log, &reader, "trim");
+    if let Some(reason) = &args.reason {
+        identity = identity.with(parent::REASON, reason.trim());
+    }
+    let (setup, initial) = (reader.setup.clone(), reader.initial);
+    let new = NewLog { out, force, setup: &setup, identity: &identity, timing };
+    let (mut ticks, mut wrong) = (0, None);
+    let written = rewrite(&mut reader, &initial, &new, |tick, state, _, _| {
+        ticks += 1;
+        if !tick.chained || tick.record.state != *state {
+            wrong.get_or_insert(state.tick);
+        }
+    })
+    .with_context(name)?;
+    if let Some(tick) = wrong {
+        let _ = fs::remove_file(out);
+        bail!(
+            "{}: not cut: from tick {tick} ({:.3} s) on it does not refly to the recorded bits; \
+             `tiltrotor verify` says more",
+            name(),
+            tick as f64 * STEP_S
+        );
+    }
+    if ticks == 0 {
+        let _ = fs::remove_file(out);
+        bail!("{}: not cut: there is no tick in that window", name());
+    }
+    Ok((ticks, written.closed.bytes))
+}
+
+/// Says in the folder's README what the flight is for.
+fn enter(readme: &Path, name: &str, reason: &str) -> Result<()> {
+    let entry = format!("- `{name}.mcap`: {reason}");
+    let old = fs::read_to_string(readme).unwrap_or_else(|_| "# Golden flights\n".into());
+    let mine = format!("- `{name}.mcap`: ");
+    let kept: Vec<_> = old.lines().filter(|line| !line.starts_with(&mine)).collect();
+    let mut file = fs::File::create(readme).with_context(|| readme.display().to_string())?;
+    writeln!(file, "{}\n{entry}", kept.join("\n"))?;
+    Ok(())
+}
