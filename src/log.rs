@@ -1,11 +1,15 @@
 //! `tiltrotor log`.
 
-use std::io::{self, BufWriter, Write};
+mod cat;
+mod export;
+
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
+use logs::evolution::Difference;
 use logs::{Ending, FlightReader, LogError, Messages};
 use recorder::statistics::Statistics;
 
@@ -20,13 +24,9 @@ pub enum Command {
         log: PathBuf,
     },
     /// Every recorded number of a log, a line of JSON a message, units in the names
-    Cat {
-        /// The log
-        log: PathBuf,
-        /// Only this channel (/state, /inputs, /hardware, /timing, /events, /outputs)
-        #[arg(long)]
-        topic: Option<String>,
-    },
+    Cat(cat::Args),
+    /// Logs as tables, CSV or Parquet, units in the columns' names: a folder a channel, a file a flight
+    Export(export::Args),
     /// A proper log from a broken one: every tick up to the first bad one
     Recover {
         /// The broken log
@@ -44,26 +44,40 @@ pub enum Command {
 pub fn run(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Info { log } => info(log),
-        Command::Cat { log, topic } => cat(log, topic.as_deref()),
+        Command::Cat(args) => cat::run(args),
+        Command::Export(args) => export::run(args),
         Command::Recover { broken, out, force } => recover(broken, out, *force),
     }
 }
 
 fn info(log: &Path) -> Result<ExitCode> {
-    let mut reader = FlightReader::open(log).with_context(|| log.display().to_string())?;
+    let mut reader = match FlightReader::open_across_versions(log) {
+        Err(LogError::Version { what, theirs, ours }) => {
+            say!("{}: {what} {theirs}, and this program knows {ours}", log.display());
+            return what_is_there(log);
+        }
+        reader => reader.with_context(|| log.display().to_string())?,
+    };
     say!("{}", log.display());
-    for (key, value) in &reader.identity.0 {
-        say!("  {key:<16} {value}");
+    say_facts("", &reader.identity.0);
+    if !reader.same_model {
+        say!(
+            "  {:<16} {}; `verify --across-versions` flies it",
+            "this program's",
+            engine::MODEL_VERSION
+        );
     }
     for (name, text) in reader.setup.files() {
         say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
     }
-    let (mut ticks, mut events, mut digest) = (0, 0, 0);
+    let (mut events, mut digest) = (0, 0);
+    let start = reader.initial.tick;
+    let mut last = start;
     let mut statistics = Statistics::new();
     let disorder = loop {
         match reader.next_tick() {
             Ok(Some(tick)) => {
-                ticks = tick.record.state.tick;
+                last = tick.record.state.tick;
                 events += tick.events.len();
                 digest = tick.record.digest;
             }
@@ -75,7 +89,11 @@ fn info(log: &Path) -> Result<ExitCode> {
             statistics.add(&timing);
         }
     };
+    let ticks = last.saturating_sub(start);
     say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
+    if start != 0 {
+        say!("  {:<16} tick {start} ({:.3} s)", "begins at", start as f64 * STEP_S);
+    }
     say!("  {:<16} {events}", "device events");
     say!("  {:<16} {} late ticks", "overruns", statistics.overruns);
     say!(
@@ -86,6 +104,17 @@ fn info(log: &Path) -> Result<ExitCode> {
         statistics.sent.longest_ms()
     );
     say!("  {:<16} {digest:016x}", "digest");
+    for (name, facts) in &reader.other_facts {
+        say_facts(&format!("{name}."), facts);
+    }
+    for (topic, difference) in reader.differences()? {
+        let Difference { missing, ignored } = difference;
+        say!(
+            "  {topic:<16} {} fields of today are not in it, {} of its fields are not known today",
+            missing.len(),
+            ignored.len()
+        );
+    }
     for remark in &reader.remarks {
         say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }
@@ -126,35 +155,30 @@ fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn cat(log: &Path, only: Option<&str>) -> Result<ExitCode> {
-    // Whoever closes the pipe early, as `head` does, has seen enough.
-    let mut out = BufWriter::new(io::stdout().lock());
-    let mut messages = Messages::open(log).with_context(|| log.display().to_string())?;
-    for message in &mut messages {
-        if only.is_some_and(|only| only != message.topic) {
-            continue;
-        }
-        let Some(fields) = message.fields() else { continue };
-        let numbers: Vec<_> =
-            fields?.iter().map(|field| format!("\"{}\":{}", field.path, field.value)).collect();
-        let written = writeln!(
-            out,
-            "{{\"topic\":\"{}\",\"time_ns\":{},{}}}",
-            message.topic,
-            message.time_ns,
-            numbers.join(",")
-        );
-        if written.is_err() {
-            return Ok(ExitCode::SUCCESS);
-        }
+fn say_facts(of: &str, facts: &BTreeMap<String, String>) {
+    for (key, value) in facts {
+        say!("  {:<16} {value}", format!("{of}{key}"));
     }
-    let _ = out.flush();
-    Ok(match messages.ending() {
-        Ending::Closed => ExitCode::SUCCESS,
-        Ending::Truncated => ExitCode::from(report::NEVER_CLOSED),
-        Ending::Damaged(why) => {
-            complain!("tiltrotor: {}: {why}", log.display());
-            ExitCode::from(report::UNUSABLE)
-        }
-    })
+}
+
+/// What any version can say of a log: what it says of itself, and how many messages there are.
+fn what_is_there(log: &Path) -> Result<ExitCode> {
+    let mut messages = Messages::open(log)?;
+    let mut channels: BTreeMap<String, (u64, usize)> = BTreeMap::new();
+    for message in &mut messages {
+        let numbers = message.layout().map_or(0, |layout| layout.numbers().len());
+        let (count, _) = channels.entry(message.topic().into()).or_insert((0, numbers));
+        *count += 1;
+    }
+    for (name, facts) in messages.facts() {
+        say_facts(&if name == "tiltrotor" { String::new() } else { format!("{name}.") }, facts);
+    }
+    for (name, data) in messages.files() {
+        say!("  {name:<16} {} bytes", data.len());
+    }
+    for (topic, (count, numbers)) in channels {
+        say!("  {topic:<16} {count} messages of {numbers} numbers");
+    }
+    say!("  it cannot be reflown; `log cat` and `log export` read it by its own schema");
+    Ok(ExitCode::from(report::UNUSABLE))
 }

@@ -49,7 +49,7 @@ enum Command {
     /// Refly a log, live in FlightGear.
     Replay(replay_live::Args),
     /// Do logs refly to the same bits? Exit 0 exact, 1 diverged or altered, 2 not a usable log, 3 exact
-    /// but never closed; of several logs the gravest: 2, then 1, then 3.
+    /// but never closed, 6 flown across versions; of several logs the gravest: 2, then 1, 6, 3.
     Verify(verify::Args),
     /// Two logs, field by field, as they were recorded. Exit 0 the same flight, 1 not, 2 not usable.
     Diff(diff::Args),

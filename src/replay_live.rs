@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, anyhow, bail};
 use engine::STEP_S;
 use flightgear::Link;
 use logs::Ending;
@@ -23,6 +23,9 @@ pub struct Args {
     /// Times real time
     #[arg(long, default_value_t = 1.0)]
     speed: f64,
+    /// Fly a log of another version of the flight model too, as a comparison: exit 6, never 0
+    #[arg(long)]
+    across_versions: bool,
 }
 
 /// Reflies the log and sends every tick's picture.
@@ -30,7 +33,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
-    let mut flight = Reflight::open(&args.log).with_context(|| args.log.display().to_string())?;
+    let mut flight = match args.across_versions {
+        true => Reflight::open_across_versions(&args.log),
+        false => Reflight::open(&args.log),
+    }
+    .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);
     let mut ticks = 0;
@@ -57,7 +64,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         link.destination(),
         link.dropped()
     );
+    let versions = flight.versions()?;
+    if let Some(versions) = &versions {
+        say!("{versions}");
+    }
+    let comparison = versions.is_some_and(|versions| versions.comparison());
     match flight.ending() {
+        Ending::Closed | Ending::Truncated if comparison => Ok(ExitCode::from(report::COMPARED)),
         Ending::Closed if first_difference.is_some() => Ok(ExitCode::from(report::DIVERGED)),
         Ending::Closed => Ok(ExitCode::SUCCESS),
         Ending::Truncated => {

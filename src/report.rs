@@ -2,8 +2,10 @@
 
 use engine::STEP_S;
 use engine::math::PI;
+use logs::LogError;
 use recorder::Landing;
 use recorder::statistics::Durations;
+use replay::ReplayError;
 
 /// A log that does not refly to the same bits, or was changed.
 pub const DIVERGED: u8 = 1;
@@ -15,6 +17,18 @@ pub const NEVER_CLOSED: u8 = 3;
 pub const LOG_CUT_SHORT: u8 = 4;
 /// There is no such steady flight.
 pub const NO_TRIM: u8 = 5;
+/// A log of another version, flown for comparison.
+pub const COMPARED: u8 = 6;
+
+/// Why a log is not reflown, and what can be done about it.
+pub fn refusal(error: &ReplayError) -> String {
+    match error {
+        ReplayError::Log(LogError::Version { what: "flight model", .. }) => {
+            format!("{error}; --across-versions flies it for comparison")
+        }
+        _ => error.to_string(),
+    }
+}
 
 /// Latency beyond which CS-FSTD(A) refuses a simulator.
 const LATENCY_LIMIT_MS: f64 = 150.0;

@@ -44,12 +44,15 @@ pub struct Args {
 
 /// How each log is reflown.
 #[derive(clap::Args)]
-struct How {}
+struct How {
+    /// Fly logs of other versions of the flight model too, as a comparison: exit 6, never 0
+    #[arg(long)]
+    across_versions: bool,
+}
 
 impl How {
     fn options(&self) -> Options {
-        let Self {} = self;
-        Options::default()
+        Options { across_versions: self.across_versions, ..Options::default() }
     }
 }
 
@@ -75,7 +78,7 @@ struct Verified {
 impl Verified {
     fn new(log: &Path, options: &Options, progress: impl FnMut(u64)) -> Self {
         let started = Instant::now();
-        let verdict = verify(log, options, progress).map_err(|error| error.to_string());
+        let verdict = verify(log, options, progress).map_err(|error| report::refusal(&error));
         Self { log: log.into(), verdict, took: started.elapsed() }
     }
 
@@ -86,6 +89,7 @@ impl Verified {
             Ok(Outcome::Diverged) => report::DIVERGED,
             Ok(Outcome::Damaged) | Err(_) => report::UNUSABLE,
             Ok(Outcome::Incomplete) => report::NEVER_CLOSED,
+            Ok(Outcome::Compared) => report::COMPARED,
         }
     }
 
@@ -134,7 +138,7 @@ impl Run {
     }
 
     fn say_sum(&self) {
-        let all = ["exact", "diverged", "incomplete", "damaged", "unusable"];
+        let all = ["exact", "diverged", "incomplete", "compared", "damaged", "unusable"];
         let counts: Vec<_> = all
             .into_iter()
             .map(|outcome| (self.count(outcome), outcome))
@@ -246,13 +250,14 @@ impl Done {
     }
 }
 
-/// The graver of two statuses: unusable, then diverged, then never closed.
+/// The graver of two statuses: unusable, then diverged, then compared, then never closed.
 fn worse(a: u8, b: u8) -> u8 {
     let grave = |status| match status {
         0 => 0,
         report::NEVER_CLOSED => 1,
-        report::DIVERGED => 2,
-        _ => 3,
+        report::COMPARED => 2,
+        report::DIVERGED => 3,
+        _ => 4,
     };
     if grave(b) > grave(a) { b } else { a }
 }

@@ -120,6 +120,9 @@ fn a_block_that_keeps_no_state_is_named_by_what_was_recorded_of_it() {
     // The wing's load shows in the state only as acceleration.
     let said = verify(other_wing()).ends(DIVERGED).says("  stage     eom, or before it a load");
     assert!(said.after("block").starts_with("wing_pylon: loads.wing_pylon."), "{said}");
+    // The first tick for which there is a record.
+    let single = &json(other_wing())["logs"][0]["divergence"]["single_steps"];
+    assert!(single["block"]["tick"].as_u64().expect("a tick") <= 10, "{single:#}");
 }
 
 #[test]

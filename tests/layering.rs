@@ -22,9 +22,11 @@ const ARROWS: &[(&str, &[&str])] = &[
 const KEPT: &[(&str, &str)] = &[
     ("bincode", "logs"),
     ("cdr-encoding", "logs"),
+    ("csv", "logs"),
     ("gilrs", "recorder"),
     ("gilrs-core", "recorder"),
     ("mcap", "logs"),
+    ("parquet", "logs"),
     ("rerun", "replay"),
     ("zerocopy", "flightgear"),
 ];

@@ -58,6 +58,7 @@ fn the_demonstration_flies_and_verifies_itself() {
     let log = folder("refly-demo").join("demo.mcap");
     tiltrotor(&["demo", "--fast", "--no-flightgear", "--out", text(&log)])
         .ends(OK)
+        .says("ticks reflown in flight, 0 mismatches, 0 ticks dropped")
         .says("exact: all ");
     tiltrotor(&["log", "info", text(&log)]).ends(OK).says("marker 1").says("touchdown");
     verify(&log).ends(OK);

@@ -167,6 +167,7 @@ const TABLES: &[(&str, &[&str])] = &[
     ("sideslip_factor", &["beta_rad"]),
     ("downwash_rad", &["mast_tilt_rad", "alpha_rad", "flap_rad"]),
     ("pressure_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
+    ("pressure_factor", &["mast_tilt_rad"]),
     ("side_force", &["beta_rad", "rudder_rad"]),
     ("drag", &["beta_rad"]),
     ("mach_0_4", &["beta_rad"]),

@@ -137,17 +137,17 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
          Poles ±15 % and ±.1 of damping ratio. Weight 13,000 lb, centre of gravity aft, 458 rpm in cruise.\n\n\
          Hover, pitch: from 1 rad/s on it is the control's power over the inertia, and agrees. Below, it is \
          the oscillation, and that of the flight model takes a pitching moment with speed of \
-         (σ² + ω²)·1.32/g = .045 rad/s² per m/s. Ours is .010: what the discs' tilt with speed in hover and \
+         (σ² + ω²)·1.32/g = .045 rad/s² per m/s. Ours is about .01: what the discs' tilt with speed in hover and \
          the in-plane forces make at the hubs (closed form .011). Trims have less still: from 0 to 20 kt the \
-         reference model's stick moves .12 in, which is .002. Its damping, .31 1/s, is that of the discs' \
+         reference model's stick moves .12 in, which is .002. Its damping, .3 1/s, is that of the discs' \
          lag less Amer's in-plane force, which a test holds to theory. No known term makes either number \
          three times as large.\n\n\
          Hover, heave: blade elements against momentum have .14 to .20 1/s at this disc loading, whether \
          collective or power stands; .105 is less than either.\n\n\
          Cruise: the flight model's elevator has 7.4 deg/s² per degree, the reference model's tables (2.29 \
-         of lift per rad, KH has the same) 13.5. CR-166536 has a pressure factor of the tail, K_HNU = .8, \
-         which the tail here leaves out because the printouts at 40 to 100 kt do. With it the short period \
-         is 2.1 rad/s at a damping ratio of .48.",
+         of lift per rad, KH has the same) 13.5, or 10.8 with the tail's pressure factor K_HNU = .8 of \
+         CR-166536. Phase, frequency and damping agree; the gain is about 3 dB high throughout, which is \
+         that elevator, or the degrees that the sweep's report calls elevator.",
     );
     let hover = hovering(aircraft);
     let cruise = cruising(aircraft);

@@ -6,8 +6,11 @@
 
 pub mod cdr;
 pub mod compact;
+pub mod evolution;
+pub mod export;
 pub mod fields;
 mod index;
+pub mod layout;
 mod narrator;
 mod raw;
 mod reader;

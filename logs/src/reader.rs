@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
@@ -15,12 +16,14 @@ use serde::de::DeserializeOwned;
 
 use crate::compact::Open;
 use crate::compact::expander::Expander;
-use crate::fields::{Field, fields};
+use crate::evolution::{Difference, Mappings};
+use crate::fields::Field;
 use crate::index::Index;
+use crate::layout::Layout;
 use crate::raw::{Raw, parse_record};
 use crate::records::{
-    Chain, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
-    TIMING, TimingRecord, first_digest,
+    Chain, EVENTS, EventRecord, FORMAT_VERSION, FORMATS_READ, HARDWARE, INPUTS, InputsRecord,
+    OUTPUTS, STATE, StateRecord, TIMING, TimingRecord, first_digest,
 };
 use crate::recover::Recovery;
 use crate::seal::{RollCall, Stamp, is_whole};
@@ -48,6 +51,9 @@ pub struct Tick {
     pub state_message: Vec<u8>,
     /// Whether the digest is the one that follows from the digest before and this tick's messages.
     pub chained: bool,
+    /// The whole `/state` message, when its layout is not today's. What it lacks is 0 above, until
+    /// [`FlightReader::fill`] knows better.
+    pub foreign: Option<Vec<u8>>,
 }
 
 /// How the file ends.
@@ -68,6 +74,8 @@ pub struct FlightReader {
     pub setup: Setup,
     /// Who flew it.
     pub identity: Identity,
+    /// Metadata records that are not known here: name, keys and values.
+    pub other_facts: Vec<(String, BTreeMap<String, String>)>,
     /// The aircraft's shape for viewers, URDF.
     pub robot_description: String,
     /// State at the start.
@@ -76,6 +84,10 @@ pub struct FlightReader {
     pub until_tick: Option<u64>,
     /// Whether the files and the state at the start are those of the first digest.
     pub intact: bool,
+    /// The same version of the flight model as this program's.
+    pub same_model: bool,
+    mappings: Mappings,
+    first: Vec<u8>,
     chain: Chain,
     pending: Pending,
     /// Tick and digest of the last state read.
@@ -108,19 +120,35 @@ impl FlightReader {
     /// Opens a log and reads up to the state at the start.
     ///
     /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours; [`LogError::Compacted`]
-    /// for a compacted log, which [`FlightReader::open_any`] reads as well.
+    /// When the file cannot be read, is not MCAP, is not a flight of ours, or was flown by another
+    /// version of the flight model; [`LogError::Compacted`] for a compacted log, which
+    /// [`FlightReader::open_any`] reads as well.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        Self::of(Records::open(path, None)?)
+        Self::open_across_versions(path)?.of_this_model()
     }
 
     /// Opens a log, compacted or not, and reads up to the state at the start. `open` makes the
     /// aircraft that flies what a compacted log leaves out.
     ///
     /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
+    /// As for [`FlightReader::open`].
     pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
-        Self::of(Records::open(path, Some(open))?)
+        Self::of(Records::open(path, Some(open))?)?.of_this_model()
+    }
+
+    /// Opens a log, whatever version of the flight model flew it. Its messages become today's structs
+    /// by the names of their fields; [`FlightReader::differences`] says which ones did not.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not MCAP, or is not a flight of ours; [`LogError::Compacted`]
+    /// for a compacted log, whose states are this version's or nobody's.
+    pub fn open_across_versions(path: &Path) -> Result<Self, LogError> {
+        Self::of(Records::open(path, None)?)
+    }
+
+    fn of_this_model(self) -> Result<Self, LogError> {
+        refuse_other_versions(&self.identity)?;
+        Ok(self)
     }
 
     /// Reads a log from anywhere, up to the state at the start.
@@ -136,12 +164,15 @@ impl FlightReader {
         let mut setup = Setup::default();
         let mut found: Vec<&str> = Vec::new();
         let mut identity = None;
+        let mut other_facts = Vec::new();
         // A tool that copied the log may have put the writer's last word first.
         let mut closing = None;
         loop {
             match records.next() {
                 Some(Item::Metadata(name, facts)) if name == METADATA => {
-                    if !is_whole(&facts) {
+                    let sealed =
+                        facts.get(Identity::FORMAT).is_none_or(|format| format != UNSEALED);
+                    if sealed && !is_whole(&facts) {
                         records.oddity("the metadata that says who flew is not as written");
                     }
                     identity = Some(Identity(facts));
@@ -149,6 +180,7 @@ impl FlightReader {
                 Some(Item::Metadata(name, facts)) if name == CLOSING => {
                     closing = last_word(&facts);
                 }
+                Some(Item::Metadata(name, facts)) => other_facts.push((name, facts)),
                 Some(Item::Attachment(name, data)) => {
                     let Some(known) = Setup::NAMES.iter().find(|known| **known == name) else {
                         continue;
@@ -160,23 +192,27 @@ impl FlightReader {
                         found.push(known);
                     }
                 }
-                Some(Item::Message(Message { topic, data, .. }))
-                    if topic == view::ROBOT_DESCRIPTION =>
-                {
-                    robot_description = view::text(&data)?;
+                Some(Item::Message(message)) if message.topic() == view::ROBOT_DESCRIPTION => {
+                    robot_description = view::text(&message.data)?;
                 }
-                Some(Item::Message(Message { topic, data, .. })) if topic == STATE => {
+                Some(Item::Message(message)) if message.topic() == STATE => {
                     let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
                     if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
                         return Err(no_flight(&format!("{missing} is not in it")));
                     }
-                    refuse_other_versions(&identity)?;
-                    let first: StateRecord = cdr::decode(&data)?;
-                    let digest = first_digest(&setup.files(), &cdr::encode(&first.state)?);
+                    refuse_other_formats(&identity)?;
+                    let mut mappings = Mappings::default();
+                    let (layout, data) = (message.layout(), &message.data);
+                    let first: StateRecord = mappings.decode(STATE, layout, data)?;
+                    let digest = first_digest(&setup.files(), &without_digest(data));
                     return Ok(Self {
                         records,
                         setup,
+                        same_model: identity.get(Identity::MODEL) == engine::MODEL_VERSION,
                         identity,
+                        other_facts,
+                        mappings,
+                        first: message.data,
                         robot_description,
                         initial: first.state,
                         until_tick: None,
@@ -230,17 +266,22 @@ impl FlightReader {
                     self.closing = last_word(&facts);
                     continue;
                 }
-                Item::Metadata(..) | Item::Attachment(..) => continue,
+                Item::Metadata(name, facts) => {
+                    self.other_facts.push((name, facts));
+                    continue;
+                }
+                Item::Attachment(..) => continue,
             };
-            let (topic, data) = (message.topic, message.data);
-            match topic.as_str() {
+            let (channel, data) = (message.channel, message.data);
+            match channel.topic.as_str() {
                 HARDWARE => {
                     self.chain.add(&data);
-                    self.pending.events.push(cdr::decode(&data)?);
+                    let event = self.decode(&channel, &data)?;
+                    self.pending.events.push(event);
                 }
                 INPUTS => {
                     self.chain.add(&data);
-                    let inputs: InputsRecord = cdr::decode(&data)?;
+                    let inputs: InputsRecord = self.decode(&channel, &data)?;
                     if self.pending.inputs.replace(inputs).is_some() {
                         return Err(LogError::Order(format!(
                             "two inputs before the state of tick {}",
@@ -248,11 +289,21 @@ impl FlightReader {
                         )));
                     }
                 }
-                STATE => return self.close_tick(&data).map(Some),
-                TIMING => self.timings.push(cdr::decode(&data)?),
-                EVENTS => self.happenings.push(cdr::decode(&data)?),
+                STATE => return self.close_tick(&channel, &data).map(Some),
+                TIMING => {
+                    let timing = self.decode(&channel, &data)?;
+                    self.timings.push(timing);
+                }
+                EVENTS => {
+                    let happening = self.decode(&channel, &data)?;
+                    self.happenings.push(happening);
+                }
                 view::LOG => self.remarks.push(view::remark(&data)?),
-                OUTPUTS if self.keep_outputs => self.outputs.push(cdr::decode(&data)?),
+                // No flight depends on it: one of another form is none.
+                OUTPUTS if self.keep_outputs => {
+                    let outputs: Option<Outputs> = self.decode(&channel, &data).ok();
+                    self.outputs.extend(outputs);
+                }
                 _ => {}
             }
         }
@@ -275,15 +326,16 @@ impl FlightReader {
         let Some(closing) = self.closing.filter(|_| ending == Ending::Closed) else {
             return Ok(Ending::Truncated);
         };
-        if closing.last != self.last {
+        let sealed = self.identity.get(Identity::FORMAT) != UNSEALED;
+        if closing.last != self.last || sealed && closing.messages.is_none() {
             return Ok(Ending::Truncated);
         }
         // When the chain says that the flight is what was flown, it is something beside it.
         let all_read = self.unbroken && !self.records.sought;
-        if all_read && closing.messages != self.records.roll_call.digest() {
+        if sealed && all_read && closing.messages != Some(self.records.roll_call.digest()) {
             return Ok(Ending::Damaged(
-                "a message beside the flight itself (timing, events, viewers' channels, or the order \
-                 or time of any) is not as written, though every checksum is right: a tool that \
+                "a message beside the flight itself (timing, events, viewers' channels, what any is \
+                 called, its order or time) is not as written, though every checksum is right: a tool that \
                  repairs logs may have done this"
                     .into(),
             ));
@@ -292,8 +344,8 @@ impl FlightReader {
         Ok(if self.recovered_from().is_some() { Ending::Truncated } else { Ending::Closed })
     }
 
-    fn close_tick(&mut self, data: &[u8]) -> Result<Tick, LogError> {
-        let record: StateRecord = cdr::decode(data)?;
+    fn close_tick(&mut self, channel: &Channel, data: &[u8]) -> Result<Tick, LogError> {
+        let record: StateRecord = self.decode(channel, data)?;
         let tick = record.state.tick;
         let events = std::mem::take(&mut self.pending.events);
         let inputs = self
@@ -308,15 +360,59 @@ impl FlightReader {
                 events.len()
             )));
         }
-        // The state follows the digest.
-        let mut state_message = cdr::HEADER.to_vec();
-        state_message.extend_from_slice(&data[cdr::HEADER.len() + size_of::<u64>()..]);
-        let chained = self.chain.close(&state_message) == record.digest;
+        let raw = without_digest(data);
+        let chained = self.chain.close(&raw) == record.digest;
         self.unbroken &= chained;
         // From a break on, the chain goes on from what is recorded: one break is told once.
         self.chain = Chain::from(record.digest);
         self.last = (tick, record.digest);
-        Ok(Tick { events, inputs, record, state_message, chained })
+        let (state_message, foreign) = if self.mappings.same_state() {
+            (raw, None)
+        } else {
+            (cdr::encode(&record.state)?, Some(data.to_vec()))
+        };
+        Ok(Tick { events, inputs, record, state_message, chained, foreign })
+    }
+
+    /// Whether the log's states have the fields that states have today.
+    pub fn has_todays_state(&self) -> bool {
+        self.mappings.same_state()
+    }
+
+    /// The state at the start, with what the log does not say of it taken from `otherwise`.
+    ///
+    /// # Errors
+    /// When the message is not of the log's layout.
+    pub fn initial_over(&self, otherwise: &State) -> Result<State, LogError> {
+        self.mappings.state_over(&self.first, otherwise)
+    }
+
+    /// Takes what a state of another layout lacks from `otherwise`, so that it differs from that state
+    /// only where both know the field.
+    ///
+    /// # Errors
+    /// When the message is not of the log's layout.
+    pub fn fill(&self, tick: &mut Tick, otherwise: &State) -> Result<(), LogError> {
+        if let Some(message) = &tick.foreign {
+            tick.record.state = self.mappings.state_over(message, otherwise)?;
+            tick.state_message = cdr::encode(&tick.record.state)?;
+        }
+        Ok(())
+    }
+
+    fn decode<T>(&mut self, channel: &Channel, message: &[u8]) -> Result<T, LogError>
+    where
+        T: Serialize + DeserializeOwned + Default,
+    {
+        self.mappings.decode(&channel.topic, channel.layout.as_ref(), message)
+    }
+
+    /// Where the log's layout is not today's, channel by channel.
+    ///
+    /// # Errors
+    /// Never, for the structs that are recorded.
+    pub fn differences(&self) -> Result<Vec<(&'static str, Difference)>, LogError> {
+        self.mappings.differences()
     }
 
     /// Begins at the recorded state of a tick, found by the log's index where it has one.
@@ -335,15 +431,17 @@ impl FlightReader {
         self.pending = Pending::default();
         loop {
             match self.records.next() {
-                Some(Item::Message(Message { topic, data, .. })) if topic == STATE => {
+                Some(Item::Message(message)) if message.topic() == STATE => {
+                    let Message { channel, data, .. } = message;
                     // Of all the states that are passed by, only the tick is looked at.
-                    let found = cdr::word(&data, 1).unwrap_or(0);
+                    let found = self.mappings.tick_of(&data).unwrap_or(0);
                     if found > tick {
                         return Err(LogError::Order(format!("tick {tick} is not there")));
                     }
                     self.last.0 = found;
                     if found == tick {
-                        let record: StateRecord = cdr::decode(&data)?;
+                        let record: StateRecord = self.decode(&channel, &data)?;
+                        self.first = data;
                         self.initial = record.state;
                         self.chain = Chain::from(record.digest);
                         self.last = (tick, record.digest);
@@ -404,7 +502,6 @@ impl FlightReader {
     pub fn forget(&mut self) {
         self.timings.clear();
         self.happenings.clear();
-        self.outputs.clear();
         self.remarks.clear();
     }
 
@@ -420,6 +517,8 @@ const PAST_TICKS: u64 = 2500;
 /// Every message of a log as it stands there, whatever its channel.
 pub struct Messages {
     records: Records,
+    facts: Vec<(String, BTreeMap<String, String>)>,
+    files: Vec<(String, Vec<u8>)>,
     from_tick: u64,
     until_tick: u64,
 }
@@ -427,8 +526,7 @@ pub struct Messages {
 /// One message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// Channel.
-    pub topic: String,
+    channel: Arc<Channel>,
     /// Time since the start of the flight, ns.
     pub time_ns: u64,
     /// Its bytes.
@@ -443,7 +541,7 @@ impl Messages {
     /// # Errors
     /// When the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        Ok(Self { records: Records::open(path, None)?, from_tick: 0, until_tick: u64::MAX })
+        Ok(Self::of(Records::open(path, None)?))
     }
 
     /// Opens a log, compacted or not.
@@ -451,7 +549,22 @@ impl Messages {
     /// # Errors
     /// When the file cannot be read.
     pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
-        Ok(Self { records: Records::open(path, Some(open))?, from_tick: 0, until_tick: u64::MAX })
+        Ok(Self::of(Records::open(path, Some(open))?))
+    }
+
+    fn of(records: Records) -> Self {
+        let (facts, files) = (Vec::new(), Vec::new());
+        Self { records, facts, files, from_tick: 0, until_tick: u64::MAX }
+    }
+
+    /// The metadata records that came so far: name, keys and values.
+    pub fn facts(&self) -> &[(String, BTreeMap<String, String>)] {
+        &self.facts
+    }
+
+    /// The attachments that came so far: name and bytes.
+    pub fn files(&self) -> &[(String, Vec<u8>)] {
+        &self.files
     }
 
     /// Only the messages from one tick to another; those before are not read where the log's index
@@ -462,13 +575,19 @@ impl Messages {
     pub fn limit(&mut self, from_tick: u64, until_tick: u64) -> Result<(), LogError> {
         (self.from_tick, self.until_tick) = (from_tick, until_tick);
         // The channels are defined before the first message.
-        while self.records.topics.is_empty() && self.records.next().is_some() {}
+        while self.records.channels.is_empty() && self.records.next().is_some() {}
         if from_tick > 0 { self.records.seek(from_tick) } else { Ok(()) }
     }
 
     /// How the file ends, once the last message has been read.
     pub fn ending(&self) -> Ending {
-        self.records.ending()
+        match self.records.ending() {
+            // An end without the writer's last word was put there by someone else.
+            Ending::Closed if self.facts.iter().all(|(name, _)| name != CLOSING) => {
+                Ending::Truncated
+            }
+            ending => ending,
+        }
     }
 }
 
@@ -477,40 +596,49 @@ impl Iterator for Messages {
 
     fn next(&mut self) -> Option<Message> {
         loop {
-            if let Item::Message(message) = self.records.next()? {
-                let tick = message.time_ns / engine::STEP_NS;
-                // What viewers draw is written after the states, but not ten seconds after.
-                if tick > self.until_tick.saturating_add(PAST_TICKS) {
-                    return None;
+            match self.records.next()? {
+                Item::Message(message) => {
+                    let tick = message.time_ns / engine::STEP_NS;
+                    // What viewers draw is written after the states, but not ten seconds after.
+                    if tick > self.until_tick.saturating_add(PAST_TICKS) {
+                        return None;
+                    }
+                    if (self.from_tick..=self.until_tick).contains(&tick) {
+                        return Some(message);
+                    }
                 }
-                if (self.from_tick..=self.until_tick).contains(&tick) {
-                    return Some(message);
-                }
+                Item::Metadata(name, facts) => self.facts.push((name, facts)),
+                Item::Attachment(name, data) => self.files.push((name, data)),
             }
         }
     }
 }
 
 impl Message {
-    /// The numbers of a recorded struct; `None` on channels for viewers.
+    /// Its channel's name.
+    pub fn topic(&self) -> &str {
+        &self.channel.topic
+    }
+
+    /// What its numbers are called, by the log's own schema; `None` on channels for viewers.
+    pub fn layout(&self) -> Option<&Layout> {
+        self.channel.layout.as_ref()
+    }
+
+    /// The numbers of a recorded struct, by the log's own schema; `None` on channels for viewers.
     ///
     /// # Errors
     /// When the bytes are not what the channel holds.
     pub fn fields(&self) -> Option<Result<Vec<Field>, LogError>> {
-        fn of<T: DeserializeOwned + Serialize>(data: &[u8]) -> Result<Vec<Field>, LogError> {
-            Ok(fields(&cdr::decode::<T>(data)?)?)
-        }
-        let decode = match self.topic.as_str() {
-            HARDWARE => of::<DeviceEvent>,
-            INPUTS => of::<InputsRecord>,
-            STATE => of::<StateRecord>,
-            TIMING => of::<TimingRecord>,
-            EVENTS => of::<EventRecord>,
-            OUTPUTS => of::<Outputs>,
-            _ => return None,
-        };
-        Some(decode(&self.data))
+        self.layout().map(|layout| layout.fields(&self.data))
     }
+}
+
+/// A `/state` message without its digest, which comes first.
+fn without_digest(data: &[u8]) -> Vec<u8> {
+    let mut state = cdr::HEADER.to_vec();
+    state.extend_from_slice(data.get(cdr::HEADER.len() + size_of::<u64>()..).unwrap_or_default());
+    state
 }
 
 fn no_flight(why: &str) -> LogError {
@@ -522,26 +650,40 @@ fn no_flight(why: &str) -> LogError {
 pub(crate) struct LastWord {
     /// Tick and digest of the last state.
     pub last: (u64, u64),
-    /// Roll call of all messages.
-    messages: u64,
+    /// Roll call of all messages; `None` without a seal.
+    messages: Option<u64>,
 }
+
+/// The log format that knew no seals.
+const UNSEALED: &str = "1";
 
 pub(crate) fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
     let number = |key| facts.get(key).and_then(|text| text.parse().ok());
     let last = number(CLOSING_TICK).zip(number(CLOSING_DIGEST))?;
-    let word = LastWord { last, messages: number(CLOSING_MESSAGES)? };
-    is_whole(facts).then_some(word)
+    Some(LastWord { last, messages: number(CLOSING_MESSAGES).filter(|_| is_whole(facts)) })
 }
 
 pub(crate) fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
+    refuse_other_formats(identity)?;
+    let theirs = identity.get(Identity::MODEL);
+    if theirs == engine::MODEL_VERSION {
+        return Ok(());
+    }
+    Err(LogError::Version {
+        what: "flight model",
+        theirs: theirs.into(),
+        ours: engine::MODEL_VERSION,
+    })
+}
+
+fn refuse_other_formats(identity: &Identity) -> Result<(), LogError> {
     let known = [
-        (Identity::FORMAT, "log format", crate::records::FORMAT_VERSION),
-        (Identity::MODEL, "flight model", engine::MODEL_VERSION),
-        (Identity::RATE, "number of ticks a second", RATE_HZ),
+        (Identity::FORMAT, "log format", FORMAT_VERSION, &FORMATS_READ[..]),
+        (Identity::RATE, "number of ticks a second", RATE_HZ, &[RATE_HZ]),
     ];
-    for (key, what, ours) in known {
+    for (key, what, ours, read) in known {
         let theirs = identity.get(key);
-        if theirs != ours {
+        if !read.contains(&theirs) {
             return Err(LogError::Version { what, theirs: theirs.into(), ours });
         }
     }
@@ -553,6 +695,23 @@ enum Item {
     Metadata(String, BTreeMap<String, String>),
     Attachment(String, Vec<u8>),
     Message(Message),
+}
+
+/// A channel of the file.
+#[derive(Debug, PartialEq, Eq)]
+struct Channel {
+    topic: String,
+    /// `None` when its messages are no recorded struct.
+    layout: Option<Layout>,
+    definition: Arc<Definition>,
+}
+
+/// What a channel's messages are, as the log says it.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Definition {
+    name: String,
+    encoding: String,
+    text: Vec<u8>,
 }
 
 /// The parts of a file, in their order.
@@ -573,8 +732,8 @@ struct Records {
     /// The last bytes that were read.
     tail: Vec<u8>,
     part: Part,
-    schemas: BTreeMap<u16, (String, bool)>,
-    topics: BTreeMap<u16, String>,
+    definitions: BTreeMap<u16, Arc<Definition>>,
+    channels: BTreeMap<u16, Arc<Channel>>,
     roll_call: RollCall,
     /// The first thing that no checksum found and that is not as written.
     oddity: Option<String>,
@@ -631,8 +790,8 @@ impl Records {
             reader: LinearReader::new_with_options(options()),
             tail: Vec::with_capacity(2 * mcap::MAGIC.len()),
             part: Part::Start,
-            schemas: BTreeMap::new(),
-            topics: BTreeMap::new(),
+            definitions: BTreeMap::new(),
+            channels: BTreeMap::new(),
             roll_call: RollCall::default(),
             oddity: None,
             ending: Ending::Closed,
@@ -676,22 +835,22 @@ impl Records {
 
     /// The next record of a compacted log.
     fn expanded(&mut self) -> Option<Item> {
-        let expander = self.expander.as_mut()?;
         loop {
-            match expander.next() {
-                Ok(Some(Raw::Channel(channel))) => {
-                    self.topics.insert(channel.id, channel.topic);
+            match self.expander.as_mut()?.next() {
+                Ok(Some(Raw::Schema { id, name, encoding, data: text })) => {
+                    self.definitions.insert(id, Arc::new(Definition { name, encoding, text }));
                 }
+                Ok(Some(Raw::Channel(channel))) => self.meet(channel),
                 Ok(Some(Raw::Message(header, data))) => {
-                    if let Some(topic) = self.topics.get(&header.channel_id) {
+                    if let Some(channel) = self.channels.get(&header.channel_id).cloned() {
                         let stamp = Stamp {
                             sequence: header.sequence,
                             log_time_ns: header.log_time,
                             publish_time_ns: header.publish_time,
                         };
-                        self.roll_call.add(topic, stamp, &data);
-                        let (topic, time_ns) = (topic.clone(), header.log_time);
-                        return Some(Item::Message(Message { topic, time_ns, data, stamp }));
+                        self.roll_call.add(&channel.topic, &channel.definition.text, stamp, &data);
+                        let time_ns = header.log_time;
+                        return Some(Item::Message(Message { channel, time_ns, data, stamp }));
                     }
                 }
                 Ok(Some(Raw::Metadata(record))) => {
@@ -736,15 +895,17 @@ impl Records {
                     self.part = part;
                     match record {
                         Record::Schema { header, data } => {
-                            let kinds = schema::kinds().unwrap_or_default();
-                            let known = kinds.iter().find(|kind| kind.name == header.name);
-                            let ours = header.encoding == schema::ENCODING
-                                && known.is_none_or(|kind| kind.text.as_bytes() == &*data);
-                            self.schemas.insert(header.id, (header.name, ours));
+                            let definition = Definition {
+                                name: header.name,
+                                encoding: header.encoding,
+                                text: data.into_owned(),
+                            };
+                            self.definitions.insert(header.id, Arc::new(definition));
                         }
                         Record::Channel(channel) => self.meet(channel),
                         Record::Message { header, data } => {
-                            let Some(topic) = self.topics.get(&header.channel_id) else {
+                            let Some(channel) = self.channels.get(&header.channel_id).cloned()
+                            else {
                                 self.ending = Ending::Damaged(
                                     "a message on a channel that is not there".into(),
                                 );
@@ -755,9 +916,10 @@ impl Records {
                                 log_time_ns: header.log_time,
                                 publish_time_ns: header.publish_time,
                             };
-                            self.roll_call.add(topic, stamp, &data);
+                            let definition = &channel.definition.text;
+                            self.roll_call.add(&channel.topic, definition, stamp, &data);
                             return Ok(Some(Item::Message(Message {
-                                topic: topic.clone(),
+                                channel,
                                 time_ns: header.log_time,
                                 data: data.into_owned(),
                                 stamp,
@@ -777,17 +939,25 @@ impl Records {
         Ok(None)
     }
 
-    /// Takes a channel's name, and looks whether it holds what a channel of that name holds.
+    /// Takes a channel's name, and looks whether it can hold what a channel of that name holds.
     fn meet(&mut self, channel: mcap::records::Channel) {
+        let definition = self.definitions.get(&channel.schema_id).cloned().unwrap_or_default();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "/_-.".contains(c);
+        let ours = definition.encoding == schema::ENCODING
+            && definition.name.split('/').next() == Some(schema::PACKAGE)
+            && channel.topic.chars().all(plain);
+        let layout = std::str::from_utf8(&definition.text).ok().filter(|_| ours);
+        let layout = layout.and_then(Layout::parse);
         let kinds = schema::kinds().unwrap_or_default();
         if let Some(kind) = kinds.iter().find(|kind| kind.topic == channel.topic) {
-            let schema = self.schemas.get(&channel.schema_id);
-            let fits = schema.is_some_and(|(name, ours)| *ours && *name == kind.name);
-            if !fits || channel.message_encoding != cdr::ENCODING {
+            // Its fields may be others than today's; what they are called has to be said.
+            let named = layout.is_some() || Layout::parse(&kind.text).is_none();
+            if !named || definition.name != kind.name || channel.message_encoding != cdr::ENCODING {
                 self.oddity(&format!("the definition of {} is not as written", kind.topic));
             }
         }
-        self.topics.insert(channel.id, channel.topic);
+        let known = Channel { topic: channel.topic, layout, definition };
+        self.channels.insert(channel.id, Arc::new(known));
     }
 }
 

@@ -4,8 +4,11 @@ use engine::inputs::World;
 use engine::{STEP_NS, State};
 use serde::{Deserialize, Serialize};
 
-/// Version of the log's format.
-pub const FORMAT_VERSION: &str = "1";
+/// Version of the log's format: its records, channels and seals. The fields of a message are not part
+/// of it; each log names its own.
+pub const FORMAT_VERSION: &str = "2";
+/// The formats that are read. 1 had no seals, and at first no last word of the writer.
+pub const FORMATS_READ: [&str; 2] = ["1", FORMAT_VERSION];
 
 /// Raw device events, one message each, in the order they were applied.
 pub const HARDWARE: &str = "/hardware";
@@ -38,6 +41,11 @@ pub struct StateRecord {
     pub digest: u64,
     /// The state.
     pub state: State,
+}
+
+impl StateRecord {
+    /// Place of the tick among the numbers.
+    pub(crate) const TICK: usize = 1;
 }
 
 /// How one tick kept time. All durations in ns, measured on the loop's thread.

@@ -83,6 +83,9 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
                 .into(),
         ));
     }
+    if !reader.differences()?.is_empty() {
+        return Err(LogError::NotRecoverable("its fields are not those of this version".into()));
+    }
     let mut recovery = Recovery {
         tick: reader.initial.tick,
         reason: String::new(),
@@ -134,7 +137,7 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
 fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Result<(), LogError> {
     let mut copied = None;
     for message in Messages::open(broken)? {
-        let flown = [HARDWARE, INPUTS, STATE].contains(&message.topic.as_str());
+        let flown = [HARDWARE, INPUTS, STATE].contains(&message.topic());
         if flown && copied == Some(recovery.tick) {
             break;
         }
@@ -145,7 +148,7 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
         if !writer.copy(&message)? {
             recovery.messages_foreign += 1;
         }
-        if message.topic == STATE {
+        if message.topic() == STATE {
             copied = Some(writer.last_tick());
         }
     }

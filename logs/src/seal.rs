@@ -46,23 +46,32 @@ pub struct Stamp {
 
 /// Every message of a log, in order, as one number.
 #[derive(Clone, Default)]
-pub struct RollCall(Xxh3Default);
+pub struct RollCall {
+    hash: Xxh3Default,
+    met: Vec<String>,
+}
 
 impl RollCall {
-    /// Adds the next message.
-    pub fn add(&mut self, topic: &str, stamp: Stamp, data: &[u8]) {
-        self.0.update(&(topic.len() as u64).to_le_bytes());
-        self.0.update(topic.as_bytes());
-        self.0.update(&stamp.sequence.to_le_bytes());
-        self.0.update(&stamp.log_time_ns.to_le_bytes());
-        self.0.update(&stamp.publish_time_ns.to_le_bytes());
-        self.0.update(&(data.len() as u64).to_le_bytes());
-        self.0.update(data);
+    /// Adds the next message, and the definition of its channel with the first one.
+    pub fn add(&mut self, topic: &str, definition: &[u8], stamp: Stamp, data: &[u8]) {
+        let Self { hash, met } = self;
+        if !met.iter().any(|known| known == topic) {
+            met.push(topic.into());
+            hash.update(&(definition.len() as u64).to_le_bytes());
+            hash.update(definition);
+        }
+        hash.update(&(topic.len() as u64).to_le_bytes());
+        hash.update(topic.as_bytes());
+        hash.update(&stamp.sequence.to_le_bytes());
+        hash.update(&stamp.log_time_ns.to_le_bytes());
+        hash.update(&stamp.publish_time_ns.to_le_bytes());
+        hash.update(&(data.len() as u64).to_le_bytes());
+        hash.update(data);
     }
 
     /// All so far.
     pub fn digest(&self) -> u64 {
-        self.0.digest()
+        self.hash.digest()
     }
 }
 
@@ -91,10 +100,19 @@ mod tests {
     fn the_order_of_messages_counts() {
         let stamp = Stamp { sequence: 1, log_time_ns: 2, publish_time_ns: 2 };
         let (mut one, mut other) = (RollCall::default(), RollCall::default());
-        one.add("/a", stamp, b"b");
-        one.add("/b", stamp, b"a");
-        other.add("/b", stamp, b"a");
-        other.add("/a", stamp, b"b");
+        one.add("/a", b"", stamp, b"b");
+        one.add("/b", b"", stamp, b"a");
+        other.add("/b", b"", stamp, b"a");
+        other.add("/a", b"", stamp, b"b");
+        assert_ne!(one.digest(), other.digest());
+    }
+
+    #[test]
+    fn another_definition_is_another_roll_call() {
+        let stamp = Stamp { sequence: 1, log_time_ns: 2, publish_time_ns: 2 };
+        let (mut one, mut other) = (RollCall::default(), RollCall::default());
+        one.add("/a", b"float64 x", stamp, b"b");
+        other.add("/a", b"float64 y", stamp, b"b");
         assert_ne!(one.digest(), other.digest());
     }
 }

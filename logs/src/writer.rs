@@ -58,7 +58,7 @@ pub struct FlightWriter {
     /// Never seeks: a pipe will do.
     mcap: Writer<NoSeek<BufWriter<File>>>,
     channels: Channels,
-    topics: BTreeMap<u16, &'static str>,
+    kinds: BTreeMap<u16, &'static Kind>,
     chain: Chain,
     roll_call: RollCall,
     /// Whether the state at the start is in it.
@@ -145,11 +145,11 @@ impl FlightWriter {
                 data: text.as_bytes().into(),
             })?;
         }
-        let mut topics = BTreeMap::new();
-        let mut add = |kind: &Kind| -> Result<u16, LogError> {
+        let mut kinds = BTreeMap::new();
+        let mut add = |kind: &'static Kind| -> Result<u16, LogError> {
             let schema = mcap.add_schema(&kind.name, schema::ENCODING, kind.text.as_bytes())?;
             let id = mcap.add_channel(schema, kind.topic, cdr::ENCODING, &BTreeMap::new())?;
-            topics.insert(id, kind.topic);
+            kinds.insert(id, kind);
             Ok(id)
         };
         let mut channel = |topic: &str| -> Result<u16, LogError> {
@@ -173,7 +173,7 @@ impl FlightWriter {
         Ok(Self {
             mcap,
             channels,
-            topics,
+            kinds,
             chain: Chain::default(),
             roll_call: RollCall::default(),
             begun: false,
@@ -248,9 +248,9 @@ impl FlightWriter {
     /// # Errors
     /// When the file cannot be written, or the message does not follow from those before.
     pub(crate) fn copy(&mut self, message: &Message) -> Result<bool, LogError> {
-        let known = self.topics.iter().find(|(_, topic)| **topic == message.topic);
+        let known = self.kinds.iter().find(|(_, kind)| kind.topic == message.topic());
         let Some((&channel, _)) = known else { return Ok(false) };
-        match message.topic.as_str() {
+        match message.topic() {
             HARDWARE | INPUTS => self.chain.add(&message.data),
             STATE => {
                 let record: StateRecord = cdr::decode(&message.data)?;
@@ -360,8 +360,8 @@ impl FlightWriter {
             publish_time: stamp.publish_time_ns,
         };
         self.mcap.write_to_known_channel(&header, message)?;
-        if let Some(topic) = self.topics.get(&channel_id) {
-            self.roll_call.add(topic, stamp, message);
+        if let Some(kind) = self.kinds.get(&channel_id) {
+            self.roll_call.add(kind.topic, kind.text.as_bytes(), stamp, message);
         }
         Ok(())
     }

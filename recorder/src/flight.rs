@@ -274,7 +274,7 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
     recording.put(Item::Landed(state.tick, if stopped { 2 } else { 0 }));
     let backlog_max = recording.backlog_max;
     // Before the log is closed: what it finds last is told there, too.
-    let checked = self_check.and_then(SelfCheck::finish);
+    let checked = self_check.map(SelfCheck::finish);
     let (sent, unsent) = flight.link.as_ref().map_or((0, 0), |link| (link.sent(), link.dropped()));
     let (log, delay) = recording.finish();
     Ok(Landing {

@@ -54,7 +54,7 @@ pub struct SingleSteps {
     /// The first block whose recorded result, at the first tick for which there is one, is not what
     /// it gives from the recorded state before.
     pub block: Option<BlockDifference>,
-    /// Of the ticks with a recorded result of every block, how many were compared.
+    /// How many ticks with a recorded result of every block were compared, up to that one.
     pub outputs: u64,
 }
 
@@ -326,6 +326,12 @@ impl fmt::Display for Divergence {
                 with_unit(block.recorded, &block.unit),
                 with_unit(block.reflown, &block.unit),
                 apart(block.recorded, block.reflown)
+            )?;
+        } else if self.single.outputs > 0 {
+            writeln!(
+                f,
+                "  block     none: at {} ticks every block gives what was recorded",
+                self.single.outputs
             )?;
         }
         writeln!(f, "  field     {}", self.path)?;

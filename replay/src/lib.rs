@@ -7,6 +7,7 @@ pub mod growth;
 mod refly;
 mod stage;
 mod verify;
+mod versions;
 #[cfg(feature = "rerun")]
 pub mod view;
 
@@ -17,3 +18,4 @@ pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use refly::{Reflight, Reflown, ReplayError};
 pub use stage::Stage;
 pub use verify::{Options, Outcome, Verdict, verify};
+pub use versions::Versions;

@@ -1,5 +1,6 @@
 //! Does a log refly to the same bits?
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
@@ -10,17 +11,20 @@ use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
 use crate::growth::WINDOW_TICKS;
 use crate::refly::{Reflight, ReplayError};
+use crate::versions::Versions;
 
 /// How to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Ticks that are still reflown after the first difference, to see how it grows.
     pub growth_ticks: u64,
+    /// Fly logs of other versions of the flight model as well, as a comparison.
+    pub across_versions: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { growth_ticks: WINDOW_TICKS }
+        Self { growth_ticks: WINDOW_TICKS, across_versions: false }
     }
 }
 
@@ -43,6 +47,8 @@ pub struct Verdict {
     pub disorder: Option<String>,
     /// Digest of the last recorded tick.
     pub digest: u64,
+    /// What stands between the log's version and this one; `None` when nothing does.
+    pub versions: Option<Box<Versions>>,
     /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
     pub recovered: Option<String>,
 }
@@ -58,6 +64,8 @@ pub enum Outcome {
     Damaged,
     /// The same to the last bit, as far as the log goes: it was never closed.
     Incomplete,
+    /// Flown by another version than recorded, or not comparable in every field: never exact.
+    Compared,
 }
 
 impl Outcome {
@@ -68,6 +76,7 @@ impl Outcome {
             Self::Diverged => "diverged",
             Self::Damaged => "damaged",
             Self::Incomplete => "incomplete",
+            Self::Compared => "compared",
         }
     }
 }
@@ -75,7 +84,10 @@ impl Outcome {
 impl Verdict {
     /// In one word.
     pub fn outcome(&self) -> Outcome {
-        if self.divergence.is_some() || self.altered.is_some() {
+        let comparison = self.versions.as_ref().is_some_and(|versions| versions.comparison());
+        if comparison && self.altered.is_none() && self.readable() {
+            Outcome::Compared
+        } else if self.divergence.is_some() || self.altered.is_some() {
             Outcome::Diverged
         } else if self.disorder.is_some() || matches!(self.ending, Ending::Damaged(_)) {
             Outcome::Damaged
@@ -84,6 +96,10 @@ impl Verdict {
         } else {
             Outcome::Exact
         }
+    }
+
+    fn readable(&self) -> bool {
+        self.disorder.is_none() && !matches!(self.ending, Ending::Damaged(_))
     }
 
     /// The last tick that is the same.
@@ -131,7 +147,11 @@ pub fn verify(
     options: &Options,
     mut progress: impl FnMut(u64),
 ) -> Result<Verdict, ReplayError> {
-    let mut flight = Reflight::open(path)?;
+    let mut flight = if options.across_versions {
+        Reflight::open_across_versions(path)?
+    } else {
+        Reflight::open(path)?
+    };
     let mut verdict = Verdict {
         start_tick: flight.state.tick,
         ticks: 0,
@@ -141,10 +161,12 @@ pub fn verify(
         ending: Ending::Truncated,
         disorder: None,
         digest: 0,
+        versions: None,
         recovered: recovered(&flight.reader.identity),
     };
     let mut last_input = LastInput::new()?;
     let mut watch = Watch::new()?;
+    flight.reader.keep_outputs = true;
     let mut before = flight.state;
     loop {
         let watched = verdict
@@ -154,7 +176,6 @@ pub fn verify(
         let next = if watched {
             flight.next_tick().map(|next| next.map(|next| (next.recorded, Some(next.exact))))
         } else {
-            flight.reader.keep_outputs = false;
             let next = flight.reader.next_tick().map_err(ReplayError::from);
             next.map(|next| next.map(|recorded| (recorded, None)))
         };
@@ -183,7 +204,6 @@ pub fn verify(
                     let input = last_input.told(&flight.aircraft.cockpit);
                     verdict.divergence =
                         Divergence::new(&watch.states, &parted, input)?.map(Box::new);
-                    flight.reader.keep_outputs = true;
                 }
             }
             (Some(divergence), Some(_)) => {
@@ -191,11 +211,14 @@ pub fn verify(
             }
             (_, None) => {}
         }
-        if let (Some(divergence), Some(_)) = (&mut verdict.divergence, exact) {
-            // What blocks gave is recorded after the state: it is that of the tick before.
+        if let Some(divergence) = &mut verdict.divergence {
+            if exact.is_some() {
+                watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
+            }
             watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
-            watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
         }
+        // What blocks gave stands some way behind the states in the file, or before them.
+        flight.reader.outputs.retain(|outputs| outputs.tick > tick);
         before = recorded.record.state;
         flight.reader.forget();
         progress(verdict.ticks);
@@ -204,6 +227,7 @@ pub fn verify(
         watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
     }
     verdict.ending = flight.ending();
+    verdict.versions = Versions::of(&flight)?.map(Box::new);
     Ok(verdict)
 }
 
@@ -217,13 +241,17 @@ fn recovered(identity: &Identity) -> Option<String> {
 struct Watch {
     states: Names,
     blocks: Names,
-    /// What the last one gave.
-    outputs: Option<Outputs>,
+    /// What they gave, until it is found in the log.
+    outputs: BTreeMap<u64, Outputs>,
 }
 
 impl Watch {
     fn new() -> Result<Self, LogError> {
-        Ok(Self { states: Names::of::<State>()?, blocks: Names::of::<Outputs>()?, outputs: None })
+        Ok(Self {
+            states: Names::of::<State>()?,
+            blocks: Names::of::<Outputs>()?,
+            outputs: BTreeMap::new(),
+        })
     }
 
     fn step(
@@ -235,16 +263,21 @@ impl Watch {
     ) -> Result<(), LogError> {
         let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
         let (stepped, outputs) = step(aircraft, before, &inputs);
-        self.outputs = Some(outputs);
+        if single.block.is_none() {
+            self.outputs.insert(outputs.tick, outputs);
+        }
         single.add(&self.states, &recorded.state_message, &cdr::encode(&stepped)?);
         Ok(())
     }
 
-    fn outputs(&self, recorded: &[Outputs], single: &mut SingleSteps) -> Result<(), LogError> {
-        let Some(stepped) = &self.outputs else { return Ok(()) };
-        if let Some(recorded) = recorded.iter().find(|recorded| recorded.tick == stepped.tick) {
-            let (recorded, of_step) = (cdr::encode(recorded)?, cdr::encode(stepped)?);
-            single.add_outputs(&self.blocks, stepped.tick, &recorded, &of_step);
+    fn outputs(&mut self, recorded: &[Outputs], single: &mut SingleSteps) -> Result<(), LogError> {
+        for recorded in recorded {
+            if let Some(stepped) = self.outputs.remove(&recorded.tick)
+                && single.block.is_none()
+            {
+                let (recorded, of_step) = (cdr::encode(recorded)?, cdr::encode(&stepped)?);
+                single.add_outputs(&self.blocks, stepped.tick, &recorded, &of_step);
+            }
         }
         Ok(())
     }
@@ -261,10 +294,17 @@ impl fmt::Display for Verdict {
                 self.digest
             )?;
         }
+        if let Some(versions) = &self.versions {
+            writeln!(f, "{versions}")?;
+        }
         let more = if self.ending == Ending::Closed { "" } else { " or more" };
         let (exact, last) = (self.exact_tick(), self.last_tick());
         let (stopped, why) = self.stopped();
-        write!(f, "exact up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
+        let same = match self.outcome() {
+            Outcome::Compared => "the same in every field that both know",
+            _ => "exact",
+        };
+        write!(f, "{same} up to tick {exact} of {last}{more} ({:.3} s): {why}", time_s(exact))?;
         if let Some(recovered) = self.recovered.as_ref().filter(|_| stopped != "recovered") {
             write!(f, "\n{recovered}")?;
         }

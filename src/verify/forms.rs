@@ -2,8 +2,9 @@
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
+use logs::evolution::Difference;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
-use replay::Verdict;
+use replay::{Verdict, Versions};
 use serde_json::{Value, json};
 
 use super::{Run, Verified};
@@ -25,6 +26,7 @@ pub fn json(run: &Run) -> Value {
             "exact": run.count("exact"),
             "diverged": run.count("diverged"),
             "incomplete": run.count("incomplete"),
+            "compared": run.count("compared"),
             "damaged": run.count("damaged"),
             "unusable": run.count("unusable"),
         },
@@ -57,6 +59,18 @@ fn json_of(verdict: &Verdict) -> Value {
         "altered_tick": verdict.altered,
         "digest": format!("{:016x}", verdict.digest),
         "divergence": verdict.divergence.as_deref().map(json::divergence),
+        "versions": verdict.versions.as_deref().map(versions),
+    })
+}
+
+fn versions(versions: &Versions) -> Value {
+    let channel = |(topic, difference): &(&str, Difference)| json!({ "channel": topic, "missing": difference.missing, "ignored": difference.ignored });
+    json!({
+        "recorded_model": versions.recorded_model,
+        "model": versions.model,
+        "comparison": versions.comparison(),
+        "channels": versions.differences.iter().map(channel).collect::<Vec<_>>(),
+        "notes": versions.notes,
     })
 }
 

@@ -6,14 +6,17 @@
 //! ε = ε(βm, α_WFS, δF)/√(1 − M²), which reaches the tail with the lag τ = l_H/V: τ·ε̇ = ε∞ − ε
 //! CL = K_β(|β|)·CL(α_H, δe) + CL_Hβ·|β|        CD = CD(α_H + K_e·τe·δe)
 //! K_e = X_Ke(M) − D_Ke·(|δe| − 15°)/15° beyond 15°
-//! q_H = ½ρ·η(βm, α, V)·(U² + W²), U and W without the rotors
+//! q_H = ½ρ·K_HNU(βm)·η(βm, α, V)·(U² + W²), U and W without the rotors
 //! ```
 //! # Signs
 //! Elevator: trailing edge down positive. Forces stand on the flow at the tail, incidence excluded.
 //! # Assumptions
-//! The source's pressure factor K_HNU = .8 is left out: with it the tail loads of its own trim
-//! printouts come out a fifth too small, without it they agree. Above Mach .2 the high-speed tables
-//! take the elevator as a change of angle. CL_Hβ counts up to 20° of sideslip. No pitching moment.
+//! The source's pressure factor K_HNU = .8 holds as an aeroplane, where its table of η is 1 throughout
+//! and flight has the short period that .8 makes (2.0 rad/s; without it 2.8). As a helicopter η was
+//! measured and is the whole of it: with another .8 the tail loads of the source's own trim printouts
+//! come out a fifth too small, without it they agree. In between it sets in linearly, an assumption.
+//! Above Mach .2 the high-speed tables take the elevator as a change of angle. CL_Hβ counts up to 20° of
+//! sideslip. No pitching moment.
 
 use serde::{Deserialize, Serialize};
 
@@ -67,6 +70,8 @@ pub struct Params {
     pub downwash_rad: Table3,
     /// η over mast tilt, angle of attack and airspeed.
     pub pressure_ratio: Table3,
+    /// K_HNU over mast tilt.
+    pub pressure_factor: Table1,
 }
 
 /// What the stabiliser remembers.
@@ -114,6 +119,7 @@ impl Params {
             ("horizontal_stabilizer.sideslip_factor", self.sideslip_factor.fault()),
             ("horizontal_stabilizer.downwash", self.downwash_rad.fault()),
             ("horizontal_stabilizer.pressure_ratio", self.pressure_ratio.fault()),
+            ("horizontal_stabilizer.pressure_factor", self.pressure_factor.fault()),
         ]
         .into_iter()
         .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
@@ -158,7 +164,8 @@ pub fn horizontal_stabilizer(params: &Params, state: &State, inputs: &Inputs) ->
         + params.lift_by_sideslip_per_rad * min(beta, SIDESLIP_RAD_MAX);
     let drag = params.drag_by_mach.at(inputs.mach, with_elevator, params.drag.at(with_elevator));
 
-    let ratio = params.pressure_ratio_at(inputs.mast_tilt_rad, &inputs.motion);
+    let ratio = params.pressure_factor.at(inputs.mast_tilt_rad)
+        * params.pressure_ratio_at(inputs.mast_tilt_rad, &inputs.motion);
     let pressure_area = 0.5
         * inputs.motion.density_kg_per_m3
         * ratio

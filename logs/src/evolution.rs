@@ -1,0 +1,229 @@
+//! Logs of other versions: their messages as today's structs, by the names of the fields.
+//!
+//! A field that the log lacks takes a value that the caller names; one that nobody knows today is left
+//! alone. Both are told. Whether the flight can be flown again to the same bits is another question,
+//! and `engine::MODEL_VERSION` answers it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use engine::inputs::DeviceEvent;
+use engine::{Outputs, State};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::layout::{Layout, Number};
+use crate::records::{
+    EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
+    TimingRecord,
+};
+use crate::{LogError, cdr};
+
+/// How messages of a log's layout become today's struct: by the names of the fields.
+#[derive(Clone, Debug)]
+pub struct Mapping {
+    theirs: Layout,
+    /// For each of today's numbers, where it stands in the log's messages.
+    sources: Vec<Option<usize>>,
+    same: bool,
+}
+
+impl Mapping {
+    /// From a log's layout to the struct `T`.
+    ///
+    /// # Errors
+    /// When the struct is not recordable.
+    pub fn to<T: Serialize + Default>(theirs: &Layout) -> Result<Self, LogError> {
+        let ours = Layout::of::<T>()?;
+        let places: BTreeMap<_, _> =
+            theirs.numbers().iter().enumerate().map(|(i, n)| (n.path.as_str(), i)).collect();
+        let source = |number: &Number| {
+            // A name whose type has changed means something else.
+            let place = places.get(number.path.as_str()).copied()?;
+            (theirs.numbers()[place].kind == number.kind).then_some(place)
+        };
+        let sources = ours.numbers().iter().map(source).collect();
+        Ok(Self { same: ours == *theirs, theirs: theirs.clone(), sources })
+    }
+
+    /// Whether the log's layout is today's.
+    pub fn is_same(&self) -> bool {
+        self.same
+    }
+
+    /// Today's struct; what the log does not have is taken from `otherwise`.
+    ///
+    /// # Errors
+    /// When the message is not of the log's layout.
+    pub fn decode<T: Serialize + DeserializeOwned>(
+        &self,
+        message: &[u8],
+        otherwise: &T,
+    ) -> Result<T, LogError> {
+        if self.same {
+            return cdr::decode(message);
+        }
+        let theirs: Vec<u64> = self.theirs.bits(message)?.collect();
+        let mut ours = cdr::encode(otherwise)?;
+        let (words, _) = ours[cdr::HEADER.len()..].as_chunks_mut::<8>();
+        for (word, source) in words.iter_mut().zip(&self.sources) {
+            if let Some(source) = source {
+                *word = theirs[*source].to_le_bytes();
+            }
+        }
+        cdr::decode(&ours)
+    }
+
+    /// One of today's numbers, by its place, out of a message of the log.
+    fn word(&self, message: &[u8], place: usize) -> Option<u64> {
+        cdr::word(message, self.sources.get(place).copied().flatten()?)
+    }
+
+    /// What the two layouts do not have in common.
+    ///
+    /// # Errors
+    /// When `T` is not recordable.
+    pub fn difference<T: Serialize + Default>(&self) -> Result<Difference, LogError> {
+        let ours = Layout::of::<T>()?;
+        let path = |number: &Number| number.path.clone();
+        let missing =
+            ours.numbers().iter().zip(&self.sources).filter(|(_, source)| source.is_none());
+        let used: BTreeSet<_> = self.sources.iter().flatten().collect();
+        let ignored = self.theirs.numbers().iter().enumerate().filter(|(i, _)| !used.contains(i));
+        Ok(Difference {
+            missing: missing.map(|(number, _)| path(number)).collect(),
+            ignored: ignored.map(|(_, number)| path(number)).collect(),
+        })
+    }
+}
+
+/// What a channel of a log and today's struct do not have in common. A field whose type has changed is
+/// in both lists.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Difference {
+    /// Fields that the log lacks.
+    pub missing: Vec<String>,
+    /// Fields of the log that nobody knows today.
+    pub ignored: Vec<String>,
+}
+
+/// The channels of a log that are read into structs, each with its mapping once a message came.
+#[derive(Debug, Default)]
+pub(crate) struct Mappings {
+    hardware: Option<Mapping>,
+    inputs: Option<Mapping>,
+    state: Option<Mapping>,
+    bare_state: Option<Mapping>,
+    outputs: Option<Mapping>,
+    timing: Option<Mapping>,
+    events: Option<Mapping>,
+}
+
+impl Mappings {
+    /// A message of a channel as today's struct; what the log lacks is 0.
+    pub fn decode<T>(
+        &mut self,
+        topic: &str,
+        layout: Option<&Layout>,
+        message: &[u8],
+    ) -> Result<T, LogError>
+    where
+        T: Serialize + DeserializeOwned + Default,
+    {
+        let (slot, needed): (_, &[&str]) = match topic {
+            HARDWARE => (&mut self.hardware, &["tick", "device", "kind", "code", "value"]),
+            INPUTS => (&mut self.inputs, &["tick", "events"]),
+            STATE => (&mut self.state, &["digest", "state.tick"]),
+            OUTPUTS => (&mut self.outputs, &[]),
+            TIMING => (&mut self.timing, &[]),
+            EVENTS => (&mut self.events, &[]),
+            _ => return cdr::decode(message),
+        };
+        // Without a schema it is taken for today's: the length will tell.
+        let Some(layout) = layout else { return cdr::decode(message) };
+        let mapping = match slot {
+            Some(mapping) => mapping,
+            None => {
+                let mapping = Mapping::to::<T>(layout)?;
+                let lacking = mapping.difference::<T>()?.missing;
+                if let Some(name) = needed.iter().find(|name| lacking.iter().any(|l| l == *name)) {
+                    return Err(LogError::Decode(format!("{topic} has no `{name}`")));
+                }
+                if topic == STATE {
+                    let bare = layout.of_state().ok_or_else(|| {
+                        LogError::Decode(format!("{topic} is not a digest and a state"))
+                    })?;
+                    self.bare_state = Some(Mapping::to::<State>(&bare)?);
+                }
+                slot.insert(mapping)
+            }
+        };
+        mapping.decode(message, &T::default())
+    }
+
+    /// The state of a `/state` message, with what the log lacks from `otherwise`.
+    pub fn state_over(&self, message: &[u8], otherwise: &State) -> Result<State, LogError> {
+        let record = StateRecord { digest: 0, state: *otherwise };
+        match &self.state {
+            Some(mapping) => Ok(mapping.decode(message, &record)?.state),
+            None => Ok(cdr::decode::<StateRecord>(message)?.state),
+        }
+    }
+
+    /// The tick of a `/state` message, without a look at the rest.
+    pub fn tick_of(&self, message: &[u8]) -> Option<u64> {
+        match &self.state {
+            Some(mapping) => mapping.word(message, StateRecord::TICK),
+            None => cdr::word(message, StateRecord::TICK),
+        }
+    }
+
+    /// Whether the log's states have today's layout.
+    pub fn same_state(&self) -> bool {
+        self.state.as_ref().is_none_or(Mapping::is_same)
+    }
+
+    /// Where the log's layout is not today's.
+    pub fn differences(&self) -> Result<Vec<(&'static str, Difference)>, LogError> {
+        fn of<T: Serialize + Default>(
+            topic: &'static str,
+            mapping: Option<&Mapping>,
+        ) -> Result<Option<(&'static str, Difference)>, LogError> {
+            let Some(mapping) = mapping.filter(|mapping| !mapping.is_same()) else {
+                return Ok(None);
+            };
+            Ok(Some((topic, mapping.difference::<T>()?)))
+        }
+        let all = [
+            of::<DeviceEvent>(HARDWARE, self.hardware.as_ref())?,
+            of::<InputsRecord>(INPUTS, self.inputs.as_ref())?,
+            of::<State>(STATE, self.bare_state.as_ref())?,
+            of::<Outputs>(OUTPUTS, self.outputs.as_ref())?,
+            of::<TimingRecord>(TIMING, self.timing.as_ref())?,
+            of::<EventRecord>(EVENTS, self.events.as_ref())?,
+        ];
+        Ok(all.into_iter().flatten().collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_older_event_is_read_by_the_names_of_its_fields() {
+        // Without `kernel_time_ns`, in another order, `value` of another type, one field more.
+        let theirs = "uint64 code\nuint64 device\nfloat64 force_n\nuint64 tick\nfloat64 value\n";
+        let mapping = Mapping::to::<DeviceEvent>(&Layout::parse(theirs).unwrap()).unwrap();
+        let mut message = cdr::HEADER.to_vec();
+        for number in [30_u64, 2, 0, 77, 5] {
+            message.extend_from_slice(&number.to_le_bytes());
+        }
+        let otherwise = DeviceEvent { kind: 9, value: -4, ..DeviceEvent::default() };
+        let event = mapping.decode(&message, &otherwise).unwrap();
+        assert_eq!(event, DeviceEvent { tick: 77, device: 2, code: 30, ..otherwise });
+        let difference = mapping.difference::<DeviceEvent>().unwrap();
+        assert_eq!(difference.missing, ["kernel_time_ns", "kind", "value"]);
+        assert_eq!(difference.ignored, ["force_n", "value"]);
+        assert!(mapping.decode(&message[..20], &otherwise).is_err());
+    }
+}

@@ -1,0 +1,51 @@
+//! A table as comma-separated text.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use super::{Cell, Column, Table};
+use crate::LogError;
+
+pub(super) struct CsvTable {
+    csv: csv::Writer<File>,
+    cell: Vec<u8>,
+}
+
+impl CsvTable {
+    pub fn create(path: &Path, columns: &[Column]) -> Result<Self, LogError> {
+        let file = File::create(path).map_err(|error| LogError::create(path, error))?;
+        let mut csv = csv::WriterBuilder::new().buffer_capacity(64 * 1024).from_writer(file);
+        csv.write_record(columns.iter().map(|column| &column.name)).map_err(told)?;
+        Ok(Self { csv, cell: Vec::new() })
+    }
+}
+
+impl Table for CsvTable {
+    fn push(&mut self, row: &[Cell]) -> Result<(), LogError> {
+        for cell in row {
+            match cell {
+                Cell::Text(text) => self.csv.write_field(text),
+                Cell::Number(number) => {
+                    self.cell.clear();
+                    write!(self.cell, "{number}")?;
+                    self.csv.write_field(&self.cell)
+                }
+            }
+            .map_err(told)?;
+        }
+        self.csv.write_record(None::<&[u8]>).map_err(told)
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), LogError> {
+        Ok(self.csv.flush()?)
+    }
+}
+
+fn told(error: csv::Error) -> LogError {
+    let words = error.to_string();
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => LogError::Io(error),
+        _ => LogError::Encode(words),
+    }
+}

@@ -1,0 +1,121 @@
+//! `tiltrotor log cat`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::{self, BufWriter, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use engine::STEP_NS;
+use logs::fields::Value;
+use logs::layout::Layout;
+use logs::records::{EVENTS, HARDWARE};
+use logs::{Ending, Messages};
+use wildmatch::WildMatch;
+
+use crate::report;
+
+/// What to print.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The log
+    log: PathBuf,
+    /// Only channels of this name, * and ? allowed: state, inputs, hardware, timing, events, outputs
+    #[arg(long, value_name = "GLOB", alias = "topic")]
+    channel: Vec<String>,
+    /// Only fields of this name, * and ? allowed: '*.velocity_mps.*', load_factor
+    #[arg(long, value_name = "GLOB")]
+    field: Vec<String>,
+    /// Only every Nth tick; device events and happenings are printed all the same
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    every: u64,
+}
+
+/// What is printed of a channel: the places of its fields in the message, each behind its name. `None`
+/// of a channel that is not wanted.
+type Choice = Option<Vec<(usize, String)>>;
+
+/// Prints every number that is wanted, a line of JSON a message.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let globs = |globs: &[String]| globs.iter().map(|g| WildMatch::new(g)).collect::<Vec<_>>();
+    let (channels, fields) = (globs(&args.channel), globs(&args.field));
+    let mut choices: BTreeMap<String, Choice> = BTreeMap::new();
+    let mut out = BufWriter::new(io::stdout().lock());
+    let name = args.log.display();
+    let mut messages = Messages::open(&args.log).with_context(|| name.to_string())?;
+    let mut line = String::new();
+    for message in &mut messages {
+        let (topic, Some(layout)) = (message.topic(), message.layout()) else { continue };
+        if !choices.contains_key(topic) {
+            let choice = choose(topic, layout, &channels, &fields);
+            choices.insert(topic.to_string(), choice);
+        }
+        let Some(Some(choice)) = choices.get(topic) else { continue };
+        let now_and_then = [HARDWARE, EVENTS].contains(&topic);
+        if !now_and_then && !(message.time_ns / STEP_NS).is_multiple_of(args.every) {
+            continue;
+        }
+        line.clear();
+        let _ = write!(line, "{{\"topic\":\"{topic}\",\"time_ns\":{}", message.time_ns);
+        let bits: Vec<u64> =
+            layout.bits(&message.data).with_context(|| name.to_string())?.collect();
+        for (place, name) in choice {
+            let (Some(number), Some(bits)) = (layout.numbers().get(*place), bits.get(*place))
+            else {
+                bail!("{}: {topic} changes its layout on the way", args.log.display());
+            };
+            let _ = match number.kind.value(*bits) {
+                // JSON has no such numbers.
+                Value::F64(value) if !value.is_finite() => write!(line, "{name}\"{value}\""),
+                value => write!(line, "{name}{value}"),
+            };
+        }
+        line.push_str("}\n");
+        if out.write_all(line.as_bytes()).is_err() {
+            // Whoever closes the pipe early, as `head` does, has seen enough.
+            return Ok(ExitCode::SUCCESS);
+        }
+    }
+    if out.flush().is_err() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    if let Ending::Damaged(why) = messages.ending() {
+        complain!("tiltrotor: {name}: {why}");
+        return Ok(ExitCode::from(report::UNUSABLE));
+    }
+    if choices.is_empty() {
+        bail!("{name}: no recorded channel in it");
+    }
+    if !choices.values().any(Option::is_some) {
+        let there: Vec<_> = choices.keys().map(String::as_str).collect();
+        bail!("{name}: no such channel or field in it; its channels are {}", there.join(", "));
+    }
+    Ok(match messages.ending() {
+        Ending::Closed => ExitCode::SUCCESS,
+        _ => ExitCode::from(report::NEVER_CLOSED),
+    })
+}
+
+fn choose(topic: &str, layout: &Layout, channels: &[WildMatch], fields: &[WildMatch]) -> Choice {
+    let bare = topic.trim_start_matches('/');
+    let wanted = |globs: &[WildMatch], names: [&str; 2]| {
+        globs.is_empty() || globs.iter().any(|glob| names.iter().any(|name| glob.matches(name)))
+    };
+    if !wanted(channels, [topic, bare]) {
+        return None;
+    }
+    // The name of the state's fields elsewhere, as in what `verify` says, is without `state.`.
+    let prefix = format!("{bare}.");
+    let chosen: Vec<_> = layout
+        .numbers()
+        .iter()
+        .enumerate()
+        .filter(|(_, number)| {
+            let path = number.path.as_str();
+            wanted(fields, [path, path.strip_prefix(&prefix).unwrap_or(path)])
+        })
+        .map(|(place, number)| (place, format!(",\"{}\":", number.path)))
+        .collect();
+    (!chosen.is_empty()).then_some(chosen)
+}

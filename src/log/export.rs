@@ -1,0 +1,108 @@
+//! `tiltrotor log export`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+use logs::Ending;
+use logs::export::{Exported, Form, export};
+
+use crate::report;
+
+/// What to export, and where to.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The logs
+    #[arg(required = true, value_name = "LOG")]
+    logs: Vec<PathBuf>,
+    /// As CSV below this folder
+    #[arg(long, value_name = "DIR", required_unless_present = "parquet")]
+    csv: Option<PathBuf>,
+    /// As Parquet below this folder
+    #[arg(long, value_name = "DIR")]
+    parquet: Option<PathBuf>,
+    /// Export flights anew that are there already
+    #[arg(long)]
+    force: bool,
+}
+
+/// Exports every log; the worst outcome is the exit status.
+pub fn run(args: &Args) -> Result<ExitCode> {
+    let mut worst = 0;
+    for (folder, form) in forms(args)? {
+        for log in &args.logs {
+            worst = worst.max(one(log, folder, form, args.force));
+        }
+    }
+    Ok(ExitCode::from(worst))
+}
+
+fn forms(args: &Args) -> Result<Vec<(&Path, Form)>> {
+    let mut forms = Vec::new();
+    forms.extend(args.csv.as_deref().map(|folder| (folder, Form::Csv)));
+    #[cfg(feature = "parquet")]
+    forms.extend(args.parquet.as_deref().map(|folder| (folder, Form::Parquet)));
+    #[cfg(not(feature = "parquet"))]
+    if args.parquet.is_some() {
+        bail!("this program was built without `parquet`; build it with `--features parquet`");
+    }
+    for (folder, _) in &forms {
+        if folder.exists() && !folder.is_dir() {
+            bail!("{}: a file, and not a folder to export to", folder.display());
+        }
+    }
+    Ok(forms)
+}
+
+/// Exports a log, says what became of it, and returns the exit status.
+fn one(log: &Path, folder: &Path, form: Form, force: bool) -> u8 {
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
+        bar.set_style(style);
+    }
+    let mut shown_s = 0;
+    let exported = export(log, folder, form, force, |time_ns| {
+        let now_s = time_ns / 1_000_000_000;
+        if now_s != shown_s {
+            shown_s = now_s;
+            bar.set_message(format!("{}: {now_s} s exported", log.display()));
+            bar.tick();
+        }
+    });
+    bar.finish_and_clear();
+    match exported {
+        Ok(Exported { flight, rows, .. }) if rows.is_empty() => {
+            say!("{}: {flight} is there already; --force exports it anew", log.display());
+            0
+        }
+        Ok(Exported { flight, rows, bytes, ending }) => {
+            let rows: Vec<_> = rows
+                .iter()
+                .filter(|(table, _)| *table != "flights")
+                .map(|(table, rows)| format!("{table} {rows}"))
+                .collect();
+            say!(
+                "{}: {flight}, {:.1} MB, rows: {}",
+                log.display(),
+                bytes as f64 * 1e-6,
+                rows.join(", ")
+            );
+            match ending {
+                Ending::Closed => 0,
+                Ending::Truncated => {
+                    say!("  it ends there without having been closed");
+                    report::NEVER_CLOSED
+                }
+                Ending::Damaged(why) => {
+                    complain!("tiltrotor: {}: damaged after that: {why}", log.display());
+                    report::UNUSABLE
+                }
+            }
+        }
+        Err(error) => {
+            complain!("tiltrotor: {}: {error}", log.display());
+            report::UNUSABLE
+        }
+    }
+}
