@@ -12,6 +12,7 @@ trap 'rm -rf "$work"' EXIT
 
 bits() {
     "$tiltrotor" fly --pilot hover --fast --duration 0.02 --no-flightgear --out "$work/bits.mcap" >/dev/null
+    cargo test --quiet "${headless[@]}" -p logs --test every_bit
     echo "every bit of a real log of five ticks, $(stat -c %s "$work/bits.mcap") bytes"
     TILTROTOR_EVERY_BIT_LOG=$work/bits.mcap cargo test --quiet "${headless[@]}" -p logs \
         --test every_bit -- --nocapture every_flipped_bit_of_a_closed_log
