@@ -75,7 +75,7 @@ mod with_rerun {
         })?;
         match drawn.first_difference {
             Some(tick) => {
-                say!("first difference at tick {tick} ({:.3} s)", tick as f64 * engine::STEP_S)
+                say!("first difference at tick {tick} ({:.3} s)", tick as f64 * engine::STEP_S);
             }
             None => say!("no difference"),
         }

@@ -108,7 +108,7 @@ fn flightgear_sees_the_aircraft_where_the_log_says_it_is() {
 fn a_replay_shows_flightgear_the_same_bytes_at_the_same_ticks() {
     let (log, flown) = flight();
     let (said, replayed) = watched(&["replay", text(log)]);
-    said.ends(OK).says("2.0 s reflown at 1 times real time, 500 packets sent");
+    said.ends(OK).says("2.0 s reflown from 0.000 s on at 1 times real time, 500 packets sent");
     assert!(contents(&replayed) == contents(flown), "{} packets", replayed.len());
     let took = replayed[TICKS - 1].0.duration_since(replayed[0].0);
     assert!(took >= Duration::from_millis(1900), "in real time: {took:?}");
