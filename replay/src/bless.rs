@@ -232,7 +232,6 @@ impl fmt::Display for Moved {
             return write!(f, "nothing moved: the same bits, digest {:016x}", self.digests.0);
         }
         let (before, now) = (&self.ends.0.plant, &self.ends.1.plant);
-        let first = self.first_tick.unwrap_or(0);
         let every = if self.seen_every_ticks == 1 {
             String::new()
         } else {
@@ -242,11 +241,16 @@ impl fmt::Display for Moved {
                 s(self.seen_every_ticks)
             )
         };
-        writeln!(f, "moved from tick {first} ({:.3} s) on{every}", s(first))?;
+        match self.first_tick {
+            Some(first) => writeln!(f, "moved from tick {first} ({:.3} s) on{every}", s(first))?,
+            None => writeln!(f, "no state moved{every}; what it is flown with did")?,
+        }
         if self.models.0 != self.models.1 {
             writeln!(f, "  flight model   {} -> {}", self.models.0, self.models.1)?;
         }
-        writeln!(f, "  {:<48} {:>12}  at", "largest change by field", "")?;
+        if !self.groups.is_empty() {
+            writeln!(f, "  {:<48} {:>12}  at", "largest change by field", "")?;
+        }
         for group in &self.groups {
             writeln!(
                 f,
