@@ -329,9 +329,10 @@ impl Blocks {
         let flow = self.motion.airspeed_mps;
         let in_plane_mps = sqrt(square(flow.x) + square(flow.z));
         let fixed = self.fixed_m.from_cg(self.balance.cg_m);
+        let place = place(&plant.origin, plant.position_m + plant.attitude.ned_from_body() * fixed);
         Outputs {
             tick: next.tick,
-            place: place(&plant.origin, plant.position_m + plant.attitude.ned_from_body() * fixed),
+            place,
             position_m: plant.position_m,
             height_above_ground_m: self.height_above_ground_m(next),
             velocity_mps: plant.velocity_mps,
@@ -358,7 +359,7 @@ impl Blocks {
             landing_gear: self.gear.legs,
             loads: self.loads,
             total: self.total,
-            validity: self.validity(next),
+            validity: self.validity(next, place.height_m),
             ..Outputs::default()
         }
     }
@@ -367,7 +368,7 @@ impl Blocks {
         -next.plant.position_m.z - self.ground_height_m
     }
 
-    fn validity(&self, next: &State) -> u64 {
+    fn validity(&self, next: &State, height_m: f64) -> u64 {
         let flag = |bit: u64, set: bool| if set { bit } else { 0 };
         let airborne = next.plant.weight_on_wheels == 0;
         let legs = &self.gear.legs;
@@ -380,7 +381,7 @@ impl Blocks {
                 airborne && self.rotors.map(|rotor| rotor.in_vortex_ring).sum() > 0,
             )
             | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
-            | flag(validity::HEIGHT, next.plant.origin.height_m - next.plant.position_m.z > 12e3)
+            | flag(validity::HEIGHT, height_m > 12e3)
             | flag(validity::GEAR_BOTTOMED, bottomed)
             | flag(validity::FROZEN, next.frozen != 0)
             | flag(
