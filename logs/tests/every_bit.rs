@@ -1,8 +1,8 @@
 //! Every bit of a small log, flipped one at a time, and the log cut at every byte: found, each of them,
 //! by the reader alone, before anything is reflown.
 //!
-//! A release build looks at all of them, `TILTROTOR_EVERY_BIT_STRIDE=7` at every seventh bit only, and
-//! `TILTROTOR_EVERY_BIT_LOG=FILE` flips the bits of another log, a real one (`tests/integrity.sh`).
+//! `TILTROTOR_EVERY_BIT_STRIDE=7` looks at every seventh bit only, and `TILTROTOR_EVERY_BIT_LOG=FILE`
+//! flips the bits of another log, a real one (`tests/integrity.sh`).
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -23,9 +23,6 @@ const MEMORY_KIB_MAX: usize = 64 * 1024;
 /// Memory is the process's: one of these at a time.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// To read a log takes a debug build more than a millisecond: it looks at every eleventh bit, which
-/// comes by every byte of structure and by every bit of a byte. `tests/integrity.sh` looks at them all.
-const STRIDE: usize = if cfg!(debug_assertions) { 11 } else { 1 };
 /// Ticks in the log.
 const TICKS: u64 = 3;
 
@@ -148,7 +145,7 @@ fn peak_kib() -> usize {
 
 fn stride() -> usize {
     let stride = std::env::var("TILTROTOR_EVERY_BIT_STRIDE").ok();
-    stride.and_then(|stride| stride.parse().ok()).unwrap_or(STRIDE).max(1)
+    stride.and_then(|stride| stride.parse().ok()).unwrap_or(1).max(1)
 }
 
 /// Hands the log over with each of its bits flipped, and fails with all that `judge` finds wrong.
@@ -182,7 +179,7 @@ fn every_bit(log: &[u8], judge: impl Fn(usize, Vec<u8>) -> Option<String> + Sync
             });
         }
     });
-    println!("{} bits, at most {} KiB more", 8 * log.len(), peak_kib() - before_kib);
+    println!("{} bits, at most {} KiB more", 8 * log.len(), peak_kib().saturating_sub(before_kib));
     let wrong = wrong.into_inner().expect("the list");
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
 }
@@ -206,7 +203,9 @@ fn every_flipped_bit_of_a_closed_log_is_found() {
     let verdicts = Mutex::new(BTreeMap::<String, usize>::new());
     every_bit(&log, |_, bytes| {
         let seen = read(bytes);
-        *verdicts.lock().expect("the list").entry(format!("{seen:?}")).or_default() += 1;
+        // Without the numbers at its end: a verdict a bit would take more memory than all the logs.
+        let what: String = format!("{seen:?}").chars().take(90).collect();
+        *verdicts.lock().expect("the list").entry(what).or_default() += 1;
         (!found(&seen)).then(|| format!("{seen:?}"))
     });
     let verdicts = verdicts.into_inner().expect("the list");
