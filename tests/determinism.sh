@@ -3,6 +3,9 @@
 # release for this very CPU with link-time optimisation, a C library that may not use AVX2 and FMA,
 # and, where qemu is installed, a CPU that has neither, and 64-bit Arm.
 # Usage: tests/determinism.sh
+#        TILTROTOR_AARCH64=build tests/determinism.sh   with one for 64-bit Arm, which takes minutes: needs
+#        qemu-user, gcc-aarch64-linux-gnu, libc6-dev-arm64-cross, rustup target add aarch64-unknown-linux-gnu
+#        TILTROTOR_AARCH64=FILE                         with one that is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 headless=(--no-default-features)
@@ -59,10 +62,16 @@ else
     skip "a Nehalem: no qemu-x86_64 (Debian package qemu-user)"
 fi
 arm=${TILTROTOR_AARCH64:-}
+if [ "$arm" = build ]; then
+    CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
+        CC_aarch64_unknown_linux_gnu=aarch64-linux-gnu-gcc \
+        build arm --release --target aarch64-unknown-linux-gnu
+    arm=target/arm/aarch64-unknown-linux-gnu/release/tiltrotor
+fi
 if [ -n "$arm" ] && command -v qemu-aarch64 >/dev/null; then
     exact "64-bit Arm (qemu)" qemu-aarch64 -L /usr/aarch64-linux-gnu "$arm"
 else
-    skip "64-bit Arm: TILTROTOR_AARCH64 names no binary, or no qemu-aarch64"
+    skip "64-bit Arm: not asked for (TILTROTOR_AARCH64), or no qemu-aarch64"
 fi
 
 # The other way round: what the debug build flies, the native one reflies.
