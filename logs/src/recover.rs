@@ -5,10 +5,13 @@
 
 use std::path::Path;
 
-use crate::LogError;
+use crate::channels::{Chain, Channel};
+use crate::open::{OpenOptions, open};
 use crate::reader::{Ending, FlightReader, Messages};
-use crate::records::{HARDWARE, INPUTS, STATE, time_ns};
+use crate::records::{STATE, time_ns};
+use crate::setup::Identity;
 use crate::writer::FlightWriter;
+use crate::LogError;
 
 /// What was recovered, and what was not.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,7 +32,7 @@ pub struct Recovery {
 
 impl Recovery {
     /// Key of the name of the file that a log was recovered from.
-    pub const PARENT: &'static str = "recovered_from";
+    pub const PARENT: &'static str = Identity::RECOVERED_FROM;
     /// Key of the last tick that the recovery kept.
     pub const TICK: &'static str = "recovered_tick";
     /// Key of what was wrong right after it.
@@ -50,7 +53,7 @@ pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogEr
         return Err(LogError::NotRecoverable("it cannot be written over itself".into()));
     }
     let mut recovery = survey(broken)?;
-    let mut reader = FlightReader::open(broken)?;
+    let mut reader = open(broken, OpenOptions::default())?;
     let parent = name_of(broken, &reader);
     let mut identity = std::mem::take(&mut reader.identity);
     if let Some(oddity) = reader.oddity() {
@@ -75,7 +78,7 @@ pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogEr
 
 /// Finds the last tick that can be trusted.
 fn survey(broken: &Path) -> Result<Recovery, LogError> {
-    let mut reader = FlightReader::open(broken)?;
+    let mut reader = open(broken, OpenOptions::default())?;
     if !reader.intact {
         return Err(LogError::NotRecoverable(
             "its aircraft, cockpit map, scenario or first state is not what it was flown with: no \
@@ -83,7 +86,7 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
                 .into(),
         ));
     }
-    if !reader.differences()?.is_empty() {
+    if !reader.differences().is_empty() {
         return Err(LogError::NotRecoverable("its fields are not those of this version".into()));
     }
     let mut recovery = Recovery {
@@ -97,9 +100,9 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
     loop {
         let bad = match reader.next_tick() {
             Ok(Some(tick)) => {
+                let (tick_now, chained) = (tick.record.state.tick, tick.chained);
                 reader.forget();
-                let tick_now = tick.record.state.tick;
-                if recovery.reason.is_empty() && tick.chained {
+                if recovery.reason.is_empty() && chained {
                     recovery.tick = tick_now;
                     continue;
                 }
@@ -136,8 +139,9 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
 /// Copies the messages up to the state of the last good tick, and what belongs to those ticks.
 fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Result<(), LogError> {
     let mut copied = None;
-    for message in Messages::open(broken)? {
-        let flown = [HARDWARE, INPUTS, STATE].contains(&message.topic());
+    let mut messages = Messages::open(broken, OpenOptions::default())?;
+    while let Some(message) = messages.next_message() {
+        let flown = Channel::of(message.topic()).is_some_and(|c| c.chain != Chain::Outside);
         if flown && copied == Some(recovery.tick) {
             break;
         }
@@ -145,7 +149,7 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
             // Viewers' channels may be a few ticks ahead.
             continue;
         }
-        if !writer.copy(&message)? {
+        if !writer.copy(message)? {
             recovery.messages_foreign += 1;
         }
         if message.topic() == STATE {

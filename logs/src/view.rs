@@ -8,7 +8,6 @@ use engine::math::{FRAC_PI_2, PI, cos, sin};
 use engine::{Aircraft, Outputs};
 use serde::Serialize;
 
-use crate::records::OUTPUTS;
 use crate::{LogError, cdr};
 
 /// Frames of the aircraft and its moving parts.
@@ -217,11 +216,7 @@ pub fn remark(message: &[u8]) -> Result<Remark, LogError> {
         _name: String,
         msg: String,
     }
-    let body = message
-        .strip_prefix(&cdr::HEADER)
-        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
-    let (said, _) = cdr_encoding::from_bytes::<Said, byteorder::LittleEndian>(body)
-        .map_err(|_| LogError::Decode("not the words of a /log message".into()))?;
+    let said: Said = cdr::decode_view(message, "the words of a /log message")?;
     let known = [Level::Info, Level::Warn, Level::Error];
     Ok(Remark {
         time_ns: u64::from(said.sec.unsigned_abs()) * 1_000_000_000 + u64::from(said.nanosec),
@@ -239,12 +234,7 @@ pub fn text(message: &[u8]) -> Result<String, LogError> {
     struct Said {
         data: String,
     }
-    let body = message
-        .strip_prefix(&cdr::HEADER)
-        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
-    cdr_encoding::from_bytes::<Said, byteorder::LittleEndian>(body)
-        .map(|(said, _)| said.data)
-        .map_err(|_| LogError::Decode("not a text".into()))
+    cdr::decode_view(message, "a text").map(|said: Said| said.data)
 }
 
 fn stamp(tick: u64) -> Time {
@@ -297,28 +287,9 @@ impl Shape {
     }
 }
 
-/// The message of a channel that is made from one tick's outputs; `None` on any other channel.
-///
-/// # Errors
-/// When it has no form as a message.
-pub fn message(
-    topic: &str,
-    outputs: &Outputs,
-    attitude: Attitude,
-    shape: &Shape,
-) -> Result<Option<Vec<u8>>, LogError> {
-    match topic {
-        OUTPUTS => cdr::encode(outputs),
-        TF => {
-            let pivot = shape.pivot_m.from_cg(outputs.balance.cg_m);
-            cdr::encode_view(&tf(outputs, attitude, pivot, shape.mast_m))
-        }
-        JOY => cdr::encode_view(&joy(outputs)),
-        JOINT_STATES => cdr::encode_view(&joint_states(outputs)),
-        FIX => cdr::encode_view(&fix(outputs)),
-        _ => return Ok(None),
-    }
-    .map(Some)
+/// `/tf` of one tick.
+pub(crate) fn frames(outputs: &Outputs, attitude: Attitude, shape: &Shape) -> Tf {
+    tf(outputs, attitude, shape.pivot_m.from_cg(outputs.balance.cg_m), shape.mast_m)
 }
 
 /// Frames: the aircraft in the world, nacelles on the aircraft, rotors on the nacelles.

@@ -9,7 +9,7 @@ use engine::{Outputs, STEP_S, State};
 use logs::FlightReader;
 use logs::view::Remark;
 
-use crate::refly::{Reflight, ReplayError, Window};
+use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
 
 /// Names of the extremes, their units, and how they are read off.
 type Reading = (&'static str, &'static str, fn(&Outputs) -> f64);
@@ -129,12 +129,13 @@ pub struct Summary {
 /// # Errors
 /// When it cannot be reflown.
 pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
-    let mut flight = Reflight::within(log, window)?;
+    let options = ReflyOptions { window: *window, across_versions: false };
+    let mut flight = Reflight::open(log, &options)?;
     let mut gathered = Gathered::from(&flight.state);
     let mut exact = true;
     let first_tick = flight.state.tick;
     while let Some(reflown) = flight.next_tick()? {
-        gathered.add(&flight.state, &reflown.outputs);
+        gathered.add(reflown.state, reflown.outputs);
         exact &= reflown.exact && reflown.recorded.chained;
         flight.reader.timings.clear();
     }

@@ -5,21 +5,22 @@
 //! flown again; anything else stands as it is, as a message of its own before the block.
 
 use super::columns::{Rows, Taker, put, zigzag};
-use super::flier::VIEWED;
 use crate::LogError;
-use crate::records::{HARDWARE, INPUTS, TIMING};
+use crate::channels::{Compacted, compacted};
 
-/// Channels kept as rows.
-pub const ROWS: [&str; 3] = [HARDWARE, INPUTS, TIMING];
+/// So many channels of rows, and of what is made again, stand in every block; those that were added to
+/// the table of channels since come after them.
+const ROWS_ALWAYS: usize = 3;
+const VIEWS_ALWAYS: usize = 5;
 
 /// Where a message's bytes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Op {
-    /// The next row of one of [`ROWS`].
+    /// The next row of a channel of rows, by its number.
     Row(u8),
     /// The next state, flown again; its digest is kept.
     State,
-    /// One of [`VIEWED`], made again from the outputs.
+    /// Of a channel that is made again of the outputs, by its number.
     View(u8),
     /// The state with which the block ends, as it was recorded: the last message before the block.
     Keyframe,
@@ -43,9 +44,9 @@ impl Op {
 
     fn of(byte: u8) -> Option<Self> {
         Some(match byte {
-            0..=2 => Self::Row(byte),
+            0..=7 if usize::from(byte) < count(Compacted::Rows) => Self::Row(byte),
             8 => Self::State,
-            16..=20 => Self::View(byte - 16),
+            16..=31 if usize::from(byte - 16) < count(Compacted::Remade) => Self::View(byte - 16),
             32 => Self::Keyframe,
             33 => Self::Plain,
             34 => Self::ChunkEnd,
@@ -54,25 +55,35 @@ impl Op {
     }
 }
 
+fn count(how: Compacted) -> usize {
+    compacted(how).count()
+}
+
 /// The block.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub struct Block {
     /// Tick of the state before it.
     pub first_tick: u64,
     /// Its messages in order.
     pub ops: Vec<Op>,
-    /// One for each of [`ROWS`].
-    pub rows: [Rows; ROWS.len()],
+    /// One for each channel of rows.
+    pub rows: Vec<Rows>,
     /// Digests of the states that are flown again.
     pub digests: Vec<u64>,
-    /// Ticks of what is made again, one list for each of [`VIEWED`].
-    pub view_ticks: [Vec<u64>; VIEWED.len()],
+    /// Ticks of what is made again, one list for each such channel.
+    pub view_ticks: Vec<Vec<u64>>,
 }
 
 impl Block {
     /// An empty one that follows the state of a tick.
     pub fn after(first_tick: u64) -> Self {
-        Self { first_tick, ..Self::default() }
+        Self {
+            first_tick,
+            ops: Vec::new(),
+            rows: compacted(Compacted::Rows).map(|_| Rows::default()).collect(),
+            digests: Vec::new(),
+            view_ticks: vec![Vec::new(); count(Compacted::Remade)],
+        }
     }
 
     /// As bytes.
@@ -81,20 +92,33 @@ impl Block {
         put(&mut bytes, self.first_tick);
         put(&mut bytes, self.ops.len() as u64);
         bytes.extend(self.ops.iter().map(|op| op.byte()));
-        for rows in &self.rows {
-            rows.encode(&mut bytes);
-        }
+        let (rows, rows_since) = self.rows.split_at(ROWS_ALWAYS);
+        let (views, views_since) = self.view_ticks.split_at(VIEWS_ALWAYS);
+        rows.iter().for_each(|rows| rows.encode(&mut bytes));
         put(&mut bytes, self.digests.len() as u64);
         bytes.extend(self.digests.iter().flat_map(|digest| digest.to_le_bytes()));
-        for ticks in &self.view_ticks {
-            put(&mut bytes, ticks.len() as u64);
-            let mut last = self.first_tick;
-            for &tick in ticks {
-                put(&mut bytes, zigzag(tick.wrapping_sub(last)));
-                last = tick;
-            }
-        }
+        views.iter().for_each(|ticks| self.encode_ticks(ticks, &mut bytes));
+        rows_since.iter().for_each(|rows| rows.encode(&mut bytes));
+        views_since.iter().for_each(|ticks| self.encode_ticks(ticks, &mut bytes));
         bytes
+    }
+
+    fn encode_ticks(&self, ticks: &[u64], bytes: &mut Vec<u8>) {
+        put(bytes, ticks.len() as u64);
+        let mut last = self.first_tick;
+        for &tick in ticks {
+            put(bytes, zigzag(tick.wrapping_sub(last)));
+            last = tick;
+        }
+    }
+
+    fn decode_ticks(&self, from: &mut Taker<'_>) -> Result<Vec<u64>, LogError> {
+        let (mut ticks, mut last) = (Vec::new(), self.first_tick);
+        for _ in 0..from.count(1)? {
+            last = last.wrapping_add(from.difference()?);
+            ticks.push(last);
+        }
+        Ok(ticks)
     }
 
     /// From bytes.
@@ -106,18 +130,23 @@ impl Block {
             .iter()
             .map(|&byte| Op::of(byte).ok_or_else(|| unknown(byte)))
             .collect::<Result<_, _>>()?;
-        let mut block = Self { first_tick, ops, ..Self::default() };
-        for rows in &mut block.rows {
+        let mut block = Self { ops, ..Self::after(first_tick) };
+        for rows in &mut block.rows[..ROWS_ALWAYS] {
             *rows = Rows::decode(&mut from)?;
         }
         let digests = from.count(8)?;
         let (digests, _) = from.bytes(8 * digests)?.as_chunks::<8>();
         block.digests = digests.iter().map(|digest| u64::from_le_bytes(*digest)).collect();
-        for ticks in &mut block.view_ticks {
-            let mut last = first_tick;
-            for _ in 0..from.count(1)? {
-                last = last.wrapping_add(from.difference()?);
-                ticks.push(last);
+        for number in 0..VIEWS_ALWAYS {
+            block.view_ticks[number] = block.decode_ticks(&mut from)?;
+        }
+        // A log that was compacted before a channel was added ends here.
+        if !from.0.is_empty() {
+            for rows in &mut block.rows[ROWS_ALWAYS..] {
+                *rows = Rows::decode(&mut from)?;
+            }
+            for number in VIEWS_ALWAYS..block.view_ticks.len() {
+                block.view_ticks[number] = block.decode_ticks(&mut from)?;
             }
         }
         if from.0.is_empty() { Ok(block) } else { Err(LogError::Decode("a block too long".into())) }

@@ -7,9 +7,9 @@ use engine::{STEP_NS, STEP_S};
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 use super::{Cell, Column};
+use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::Kind;
-use crate::records::{HARDWARE, STATE};
 use crate::setup::{CLOSING, Identity, METADATA, Setup};
 use crate::{Ending, LogError, Message, Messages};
 
@@ -83,9 +83,9 @@ impl Flight {
     }
 
     pub fn saw(&mut self, message: &Message) -> Result<(), LogError> {
-        match message.topic() {
-            HARDWARE => self.device_events += 1,
-            STATE => {
+        match message.channel().map(|channel| channel.id) {
+            Some(ChannelId::Hardware) => self.device_events += 1,
+            Some(ChannelId::State) => {
                 let Some(layout) = message.layout() else { return Ok(()) };
                 let number = |path: &str| layout.numbers().iter().position(|n| n.path == path);
                 if let Some(place) = number("digest") {

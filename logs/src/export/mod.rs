@@ -17,11 +17,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::{Kind, Layout};
 use crate::records::STATE;
 use crate::view;
-use crate::{Ending, LogError, Message, Messages};
+use crate::{Ending, LogError, Message, Messages, OpenOptions};
 
 use flights::Flight;
 
@@ -119,11 +120,12 @@ pub fn export(
     force: bool,
     mut progress: impl FnMut(u64),
 ) -> Result<Exported, LogError> {
-    let mut messages = Messages::open(log)?;
+    let mut messages = Messages::open(log, OpenOptions::default())?;
     let mut flight = Flight::new(log);
     let mut tables = Tables::new(folder, form)?;
     let mut known = None;
-    while let Some(message) = messages.next() {
+    while messages.next_message().is_some() {
+        let message = &messages.message;
         if message.topic() == STATE && known.is_none() {
             let name = flight.name(messages.facts(), messages.files(), &message.data)?;
             if !force && tables.place("flights", &name).exists() {
@@ -136,8 +138,8 @@ pub fn export(
             }
             known = Some(name);
         }
-        flight.saw(&message)?;
-        tables.add(&message)?;
+        flight.saw(message)?;
+        tables.add(message)?;
         progress(message.time_ns);
     }
     let ending = messages.ending();
@@ -204,7 +206,7 @@ impl Tables {
             Cell::Number(Value::U64(message.time_ns)),
             Cell::Number(Value::F64(message.time_ns as f64 * 1e-9)),
         ];
-        if message.topic() == view::LOG {
+        if message.channel().is_some_and(|channel| channel.id == ChannelId::Log) {
             let remark = view::remark(&message.data)?;
             let level = Cell::Number(Value::U64(remark.level as u64));
             let columns = [Column::number("level", Kind::U64), Column::text("words")];
