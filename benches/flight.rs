@@ -18,7 +18,7 @@ use logs::{FlightWriter, Identity, Setup};
 use recorder::pilots::Pilot;
 use recorder::writer::{Item, Recording};
 use recorder::{Flight, Progress, fly};
-use replay::{Options, Window};
+use replay::{Options, ReflyOptions, Window};
 
 fn main() {
     divan::main();

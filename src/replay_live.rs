@@ -38,9 +38,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     }
     let window = args.window.of(&args.log)?;
     let options = ReflyOptions { window, across_versions: args.across_versions };
-    let mut flight = Reflight::open(&args.log, &options).map_err(|error| {
-        anyhow!("{}: {}", args.log.display(), report::refusal(&error))
-    })?;
+    let mut flight = Reflight::open(&args.log, &options)
+        .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);

@@ -4,20 +4,18 @@
 //! outputs. One that holds a struct of numbers needs that struct, and whoever calls
 //! [`FlightWriter`](crate::FlightWriter) with it.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use engine::Outputs;
 use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
-use serde::Serialize;
 
 use crate::cdr::append_view;
-use crate::layout::Layout;
 use crate::records::{
     EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
     TimingRecord,
 };
-use crate::schema::{PACKAGE, Types};
+use crate::schema::{MessageType, Types, numbers};
 use crate::view::{self, Shape};
 use crate::{LogError, cdr};
 
@@ -30,7 +28,9 @@ pub struct Channel {
     pub topic: &'static str,
     /// When it gets a message.
     pub written: Written,
-    content: Content,
+    describe: fn(&mut Types) -> Result<MessageType, LogError>,
+    /// Fields without which a message of it is none.
+    pub(crate) needed: &'static [&'static str],
     pub(crate) chain: Chain,
     pub(crate) compacted: Compacted,
 }
@@ -51,19 +51,6 @@ pub enum Written {
         /// Appends the message.
         message: fn(&mut Vec<u8>, &Outputs, Attitude, &Shape) -> Result<(), LogError>,
     },
-}
-
-/// What a channel's messages are.
-#[derive(Clone, Copy, Debug)]
-enum Content {
-    /// A struct of numbers, and the fields without which a log's message is none.
-    Numbers {
-        name: &'static str,
-        describe: fn(&mut Types) -> Result<(String, Layout), LogError>,
-        needed: &'static [&'static str],
-    },
-    /// A message type of ROS 2's own, for viewers.
-    Ros(fn() -> view::Schema),
 }
 
 /// What a channel is to the chain of digests.
@@ -90,13 +77,6 @@ pub(crate) enum Compacted {
     Remade,
 }
 
-const fn numbers<T: Serialize + Default>(
-    name: &'static str,
-    needed: &'static [&'static str],
-) -> Content {
-    Content::Numbers { name, needed, describe: Types::describe::<T> }
-}
-
 const fn every(
     ticks: u64,
     message: fn(&mut Vec<u8>, &Outputs, Attitude, &Shape) -> Result<(), LogError>,
@@ -105,7 +85,7 @@ const fn every(
 }
 
 macro_rules! channels {
-    ($($(#[$doc:meta])* $id:ident $topic:expr, $content:expr, $written:expr, $chain:ident, $compacted:ident;)+) => {
+    ($($(#[$doc:meta])* $id:ident $topic:expr, $describe:expr, $needed:expr, $written:expr, $chain:ident, $compacted:ident;)+) => {
         /// Which channel: its place in [`CHANNELS`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum ChannelId { $($(#[$doc])* $id),+ }
@@ -118,7 +98,8 @@ macro_rules! channels {
         pub static CHANNELS: [Channel; COUNT] = [$(Channel {
             id: ChannelId::$id,
             topic: $topic,
-            content: $content,
+            describe: $describe,
+            needed: $needed,
             written: $written,
             chain: Chain::$chain,
             compacted: Compacted::$compacted,
@@ -126,34 +107,33 @@ macro_rules! channels {
     };
 }
 
-use Content::Ros;
-use Written::{EveryTick, Once, OnEvent};
+use Written::{EveryTick, OnEvent, Once};
 
 channels! {
     /// Raw device events.
-    Hardware HARDWARE, numbers::<DeviceEvent>("DeviceEvent", &["tick", "device", "kind", "code", "value"]), OnEvent, Adds, Rows;
+    Hardware HARDWARE, numbers::<DeviceEvent>, &["tick", "device", "kind", "code", "value"], OnEvent, Adds, Rows;
     /// The world.
-    Inputs INPUTS, numbers::<InputsRecord>("InputsRecord", &["tick", "events"]), EveryTick, Adds, Rows;
+    Inputs INPUTS, numbers::<InputsRecord>, &["tick", "events"], EveryTick, Adds, Rows;
     /// The state.
-    State STATE, numbers::<StateRecord>("StateRecord", &["digest", "state.tick"]), EveryTick, Closes, Reflown;
+    State STATE, numbers::<StateRecord>, &["digest", "state.tick"], EveryTick, Closes, Reflown;
     /// How ticks kept time.
-    Timing TIMING, numbers::<TimingRecord>("TimingRecord", &[]), EveryTick, Outside, Rows;
+    Timing TIMING, numbers::<TimingRecord>, &[], EveryTick, Outside, Rows;
     /// What happened.
-    Events EVENTS, numbers::<EventRecord>("EventRecord", &[]), OnEvent, Outside, Kept;
+    Events EVENTS, numbers::<EventRecord>, &[], OnEvent, Outside, Kept;
     /// What could be observed.
-    Outputs OUTPUTS, numbers::<engine::Outputs>("Outputs", &[]), every(10, |to, o, _, _| cdr::append(to, o)), Outside, Remade;
+    Outputs OUTPUTS, numbers::<engine::Outputs>, &[], every(10, |to, o, _, _| cdr::append(to, o)), Outside, Remade;
     /// Frames of the aircraft and its parts.
-    Tf view::TF, Ros(view::tf_schema), every(5, |to, o, at, shape| append_view(to, &view::frames(o, at, shape))), Outside, Remade;
+    Tf view::TF, |_| Ok(view::TF_TYPE.into()), &[], every(5, |to, o, at, shape| append_view(to, &view::frames(o, at, shape))), Outside, Remade;
     /// Where the pilot holds everything.
-    Joy view::JOY, Ros(view::joy_schema), every(5, |to, o, _, _| append_view(to, &view::joy(o))), Outside, Remade;
+    Joy view::JOY, |_| Ok(view::JOY_TYPE.into()), &[], every(5, |to, o, _, _| append_view(to, &view::joy(o))), Outside, Remade;
     /// Nacelles, surfaces and gear.
-    JointStates view::JOINT_STATES, Ros(view::joint_schema), every(5, |to, o, _, _| append_view(to, &view::joint_states(o))), Outside, Remade;
+    JointStates view::JOINT_STATES, |_| Ok(view::JOINT_TYPE.into()), &[], every(5, |to, o, _, _| append_view(to, &view::joint_states(o))), Outside, Remade;
     /// Where on earth.
-    Fix view::FIX, Ros(view::fix_schema), every(50, |to, o, _, _| append_view(to, &view::fix(o))), Outside, Remade;
+    Fix view::FIX, |_| Ok(view::FIX_TYPE.into()), &[], every(50, |to, o, _, _| append_view(to, &view::fix(o))), Outside, Remade;
     /// Events in words.
-    Log view::LOG, Ros(view::log_schema), OnEvent, Outside, Kept;
+    Log view::LOG, |_| Ok(view::LOG_TYPE.into()), &[], OnEvent, Outside, Kept;
     /// The aircraft's shape.
-    RobotDescription view::ROBOT_DESCRIPTION, Ros(view::string_schema), Once, Outside, Kept;
+    RobotDescription view::ROBOT_DESCRIPTION, |_| Ok(view::STRING_TYPE.into()), &[], Once, Outside, Kept;
 }
 
 impl From<ChannelId> for &'static Channel {
@@ -176,14 +156,6 @@ impl Channel {
         Ok(&message_types()?[self.id as usize])
     }
 
-    /// Fields without which a message of it is none.
-    pub(crate) fn needed(&self) -> &'static [&'static str] {
-        match self.content {
-            Content::Numbers { needed, .. } => needed,
-            Ros(_) => &[],
-        }
-    }
-
     /// Its number among those that are compacted alike.
     pub(crate) fn number(&self) -> usize {
         let before = &CHANNELS[..self.id as usize];
@@ -196,18 +168,7 @@ pub(crate) fn compacted(how: Compacted) -> impl Iterator<Item = &'static Channel
     CHANNELS.iter().filter(move |channel| channel.compacted == how)
 }
 
-/// A channel's message type.
-#[derive(Debug)]
-pub struct MessageType {
-    /// Its name, with its package.
-    pub name: String,
-    /// Its `ros2msg` definition.
-    pub text: String,
-    /// What its numbers are called; `None` when it is for viewers.
-    pub layout: Option<Arc<Layout>>,
-}
-
-/// Every channel's, made once.
+/// Every channel's message type, made once.
 fn message_types() -> Result<&'static [MessageType], LogError> {
     static ALL: OnceLock<Vec<MessageType>> = OnceLock::new();
     if let Some(all) = ALL.get() {
@@ -215,20 +176,8 @@ fn message_types() -> Result<&'static [MessageType], LogError> {
     }
     // Of all channels together: a name means one type in the whole file.
     let mut types = Types::default();
-    let mut all = Vec::with_capacity(COUNT);
-    for channel in &CHANNELS {
-        all.push(match channel.content {
-            Content::Numbers { name, describe, .. } => {
-                let (text, layout) = describe(&mut types)?;
-                let layout = Some(Arc::new(layout));
-                MessageType { name: format!("{PACKAGE}/msg/{name}"), text, layout }
-            }
-            Ros(schema) => {
-                let view::Schema { name, text } = schema();
-                MessageType { name: name.into(), text, layout: None }
-            }
-        });
-    }
+    let all = CHANNELS.iter().map(|channel| (channel.describe)(&mut types));
+    let all = all.collect::<Result<_, _>>()?;
     Ok(ALL.get_or_init(|| all))
 }
 

@@ -5,16 +5,16 @@
 
 use std::path::Path;
 
+use crate::LogError;
 use crate::channels::{Chain, Channel};
 use crate::open::{OpenOptions, open};
 use crate::reader::{Ending, FlightReader, Messages};
 use crate::records::{STATE, time_ns};
 use crate::setup::Identity;
 use crate::writer::FlightWriter;
-use crate::LogError;
 
 /// What was recovered, and what was not.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Recovery {
     /// Last tick that was kept.
     pub tick: u64,
@@ -91,47 +91,36 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
     }
     let mut recovery = Recovery {
         tick: reader.initial.tick,
-        reason: String::new(),
-        ticks_distrusted: 0,
-        messages_foreign: 0,
         bytes_read: std::fs::metadata(broken).map_err(LogError::Open)?.len(),
-        bytes_written: 0,
+        ..Recovery::default()
     };
     loop {
-        let bad = match reader.next_tick() {
+        let (bad, more) = match reader.next_tick() {
             Ok(Some(tick)) => {
-                let (tick_now, chained) = (tick.record.state.tick, tick.chained);
+                let (tick, chained) = (tick.record.state.tick, tick.chained);
                 reader.forget();
                 if recovery.reason.is_empty() && chained {
-                    recovery.tick = tick_now;
+                    recovery.tick = tick;
                     continue;
                 }
                 recovery.ticks_distrusted += 1;
-                format!("the digest breaks at tick {tick_now}")
+                (format!("the digest breaks at tick {tick}"), true)
             }
-            Ok(None) => {
-                let why = match reader.ending() {
-                    Some(Ending::Closed) if recovery.reason.is_empty() => {
-                        return Err(LogError::NotRecoverable("it is whole".into()));
-                    }
-                    Some(Ending::Damaged(why)) => why.clone(),
-                    _ => "it ends without having been closed".into(),
-                };
-                if recovery.reason.is_empty() {
-                    recovery.reason = why;
+            Ok(None) => match reader.ending() {
+                Some(Ending::Closed) if recovery.reason.is_empty() => {
+                    return Err(LogError::NotRecoverable("it is whole".into()));
                 }
-                return Ok(recovery);
-            }
-            Err(error @ (LogError::Order(_) | LogError::Decode(_))) => {
-                if recovery.reason.is_empty() {
-                    recovery.reason = error.to_string();
-                }
-                return Ok(recovery);
-            }
+                Some(Ending::Damaged(why)) => (why.clone(), false),
+                _ => ("it ends without having been closed".into(), false),
+            },
+            Err(error @ (LogError::Order(_) | LogError::Decode(_))) => (error.to_string(), false),
             Err(error) => return Err(error),
         };
         if recovery.reason.is_empty() {
             recovery.reason = bad;
+        }
+        if !more {
+            return Ok(recovery);
         }
     }
 }

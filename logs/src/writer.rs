@@ -13,18 +13,19 @@ use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
-use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, MessageType, Written};
+use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
 use crate::container::RECORD_BYTES_MAX;
 use crate::container::checksums::{RollCall, seal};
 use crate::reader::Message;
 use crate::records::{
     Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest, time_ns,
 };
+use crate::schema::{self, MessageType};
 use crate::setup::{
     CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, Setup,
 };
 use crate::view::{self, Level};
-use crate::{LogError, cdr, schema};
+use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
 pub(crate) const CHUNK_BYTES: u64 = 128 * 1024;

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use logs::Identity;
 use logs::evolution::Difference;
 use logs::records::STATE;
-use logs::Identity;
 
 use crate::refly::Reflight;
 

@@ -49,8 +49,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let name = args.log.display();
     let window = args.window.of(&args.log)?;
     // What cannot be flown any more is still read by its own schema.
-    let mut messages =
-        Messages::open(&args.log, replay::OPEN).with_context(|| name.to_string())?;
+    let mut messages = Messages::open(&args.log, replay::OPEN).with_context(|| name.to_string())?;
     if window != Window::default() {
         let (from, until) = (window.from_tick.unwrap_or(0), window.until_tick.unwrap_or(u64::MAX));
         messages.limit(from, until).with_context(|| name.to_string())?;

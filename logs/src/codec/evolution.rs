@@ -121,7 +121,7 @@ impl Mappings {
                 let lacking = &mapping.difference.missing;
                 let topic = channel.topic;
                 if let Some(name) =
-                    channel.needed().iter().find(|name| lacking.iter().any(|l| l == *name))
+                    channel.needed.iter().find(|name| lacking.iter().any(|l| l == *name))
                 {
                     return Err(LogError::Decode(format!("{topic} has no `{name}`")));
                 }

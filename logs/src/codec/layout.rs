@@ -193,8 +193,8 @@ mod tests {
     fn the_layout_of_a_schema_is_that_of_the_struct_it_was_made_from() {
         let mut types = Types::default();
         for described in [types.describe::<State>(), types.describe::<engine::Outputs>()] {
-            let (text, layout) = described.unwrap();
-            assert_eq!(Layout::parse(&text).unwrap(), layout);
+            let described = described.unwrap();
+            assert_eq!(Layout::parse(&described.text).as_ref(), described.layout.as_deref());
         }
     }
 

@@ -1,6 +1,7 @@
 //! `ros2msg` schemas, generated from the recorded structs themselves.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -14,8 +15,25 @@ pub const PACKAGE: &str = "tiltrotor";
 /// What MCAP calls the language of the definitions.
 pub(crate) const ENCODING: &str = "ros2msg";
 
-const RULE: &str =
+/// Between the definitions of two types.
+pub(crate) const RULE: &str =
     "================================================================================";
+
+/// A channel's message type.
+#[derive(Debug)]
+pub struct MessageType {
+    /// Its name, with its package.
+    pub name: String,
+    /// Its `ros2msg` definition.
+    pub text: String,
+    /// What its numbers are called; `None` when it is for viewers.
+    pub layout: Option<Arc<Layout>>,
+}
+
+/// The message type of a struct of numbers.
+pub(crate) fn numbers<T: Serialize + Default>(types: &mut Types) -> Result<MessageType, LogError> {
+    types.describe::<T>()
+}
 
 /// The types that the messages of a file are made of: a name means one of them.
 #[derive(Default)]
@@ -27,11 +45,11 @@ pub struct Types {
 }
 
 impl Types {
-    /// The definition of a message, with the types it is made of appended, and its layout.
+    /// A message type, its definition with the types it is made of appended.
     ///
     /// # Errors
     /// When the struct is not recordable.
-    pub fn describe<T: Serialize + Default>(&mut self) -> Result<(String, Layout), LogError> {
+    pub fn describe<T: Serialize + Default>(&mut self) -> Result<MessageType, LogError> {
         let root = tree(&T::default())?;
         let Node::Struct(root_name, children) = &root else {
             return Err(LogError::Encode("a message is a struct".into()));
@@ -48,7 +66,8 @@ impl Types {
             let (name, body) = &self.all[place];
             let _ = write!(text, "{RULE}\nMSG: {PACKAGE}/{name}\n{body}");
         }
-        Ok((text, Layout::of::<T>()?))
+        let layout = Some(Arc::new(Layout::of::<T>()?));
+        Ok(MessageType { name: format!("{PACKAGE}/msg/{root_name}"), text, layout })
     }
 
     /// Defines the struct unless the same is there, and returns its name.
@@ -128,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_schema_names_every_type_once() {
-        let text = Types::default().describe::<engine::State>().unwrap().0;
+        let text = Types::default().describe::<engine::State>().unwrap().text;
         assert!(text.starts_with("uint64 tick\n"), "{text}");
         assert!(text.contains("tiltrotor/CockpitState cockpit\n"), "{text}");
         assert!(text.contains("MSG: tiltrotor/Vec3\nfloat64 x\nfloat64 y\nfloat64 z\n"));

@@ -4,14 +4,17 @@
 //! come from. Device events, worlds and timings are rows of numbers; states and what viewers draw are
 //! flown again; anything else stands as it is, as a message of its own before the block.
 
+use std::ops::Range;
+
 use super::columns::{Rows, Taker, put, zigzag};
 use crate::LogError;
 use crate::channels::{Compacted, compacted};
 
-/// So many channels of rows, and of what is made again, stand in every block; those that were added to
-/// the table of channels since come after them.
-const ROWS_ALWAYS: usize = 3;
-const VIEWS_ALWAYS: usize = 5;
+/// The parts of a block, each with the numbers of its channels of rows and of what is made again: those
+/// that stand in every block, and those that were added to the table of channels since.
+fn parts() -> [(Range<usize>, Range<usize>); 2] {
+    [(0..3, 0..5), (3..count(Compacted::Rows), 5..count(Compacted::Remade))]
+}
 
 /// Where a message's bytes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,33 +95,22 @@ impl Block {
         put(&mut bytes, self.first_tick);
         put(&mut bytes, self.ops.len() as u64);
         bytes.extend(self.ops.iter().map(|op| op.byte()));
-        let (rows, rows_since) = self.rows.split_at(ROWS_ALWAYS);
-        let (views, views_since) = self.view_ticks.split_at(VIEWS_ALWAYS);
-        rows.iter().for_each(|rows| rows.encode(&mut bytes));
-        put(&mut bytes, self.digests.len() as u64);
-        bytes.extend(self.digests.iter().flat_map(|digest| digest.to_le_bytes()));
-        views.iter().for_each(|ticks| self.encode_ticks(ticks, &mut bytes));
-        rows_since.iter().for_each(|rows| rows.encode(&mut bytes));
-        views_since.iter().for_each(|ticks| self.encode_ticks(ticks, &mut bytes));
+        for (rows, views) in parts() {
+            self.rows[rows.clone()].iter().for_each(|rows| rows.encode(&mut bytes));
+            if rows.start == 0 {
+                put(&mut bytes, self.digests.len() as u64);
+                bytes.extend(self.digests.iter().flat_map(|digest| digest.to_le_bytes()));
+            }
+            for ticks in &self.view_ticks[views] {
+                put(&mut bytes, ticks.len() as u64);
+                let mut last = self.first_tick;
+                for &tick in ticks {
+                    put(&mut bytes, zigzag(tick.wrapping_sub(last)));
+                    last = tick;
+                }
+            }
+        }
         bytes
-    }
-
-    fn encode_ticks(&self, ticks: &[u64], bytes: &mut Vec<u8>) {
-        put(bytes, ticks.len() as u64);
-        let mut last = self.first_tick;
-        for &tick in ticks {
-            put(bytes, zigzag(tick.wrapping_sub(last)));
-            last = tick;
-        }
-    }
-
-    fn decode_ticks(&self, from: &mut Taker<'_>) -> Result<Vec<u64>, LogError> {
-        let (mut ticks, mut last) = (Vec::new(), self.first_tick);
-        for _ in 0..from.count(1)? {
-            last = last.wrapping_add(from.difference()?);
-            ticks.push(last);
-        }
-        Ok(ticks)
     }
 
     /// From bytes.
@@ -131,22 +123,25 @@ impl Block {
             .map(|&byte| Op::of(byte).ok_or_else(|| unknown(byte)))
             .collect::<Result<_, _>>()?;
         let mut block = Self { ops, ..Self::after(first_tick) };
-        for rows in &mut block.rows[..ROWS_ALWAYS] {
-            *rows = Rows::decode(&mut from)?;
-        }
-        let digests = from.count(8)?;
-        let (digests, _) = from.bytes(8 * digests)?.as_chunks::<8>();
-        block.digests = digests.iter().map(|digest| u64::from_le_bytes(*digest)).collect();
-        for number in 0..VIEWS_ALWAYS {
-            block.view_ticks[number] = block.decode_ticks(&mut from)?;
-        }
-        // A log that was compacted before a channel was added ends here.
-        if !from.0.is_empty() {
-            for rows in &mut block.rows[ROWS_ALWAYS..] {
+        for (rows, views) in parts() {
+            let first = rows.start == 0;
+            if !first && from.0.is_empty() {
+                break;
+            }
+            for rows in &mut block.rows[rows] {
                 *rows = Rows::decode(&mut from)?;
             }
-            for number in VIEWS_ALWAYS..block.view_ticks.len() {
-                block.view_ticks[number] = block.decode_ticks(&mut from)?;
+            if first {
+                let digests = from.count(8)?;
+                let (digests, _) = from.bytes(8 * digests)?.as_chunks::<8>();
+                block.digests = digests.iter().map(|digest| u64::from_le_bytes(*digest)).collect();
+            }
+            for ticks in &mut block.view_ticks[views] {
+                let mut last = first_tick;
+                for _ in 0..from.count(1)? {
+                    last = last.wrapping_add(from.difference()?);
+                    ticks.push(last);
+                }
             }
         }
         if from.0.is_empty() { Ok(block) } else { Err(LogError::Decode("a block too long".into())) }

@@ -31,7 +31,7 @@ pub fn expand(
     }
     let mut from = Expander::new(LogFile::open(log)?.with_fingerprint(), aircraft_of, false);
     let mut writer: Option<Copy> = None;
-    let mut record = Record::ChunkEnd;
+    let mut record = Record::default();
     while from.next(&mut record).map_err(cannot_be_used)? {
         if let Record::Header { profile, library } = &record {
             writer = Some(Copy::create(out, force, profile, library)?);

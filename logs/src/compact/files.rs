@@ -10,26 +10,30 @@ use mcap::{Attachment, Writer};
 use super::VERSION;
 use super::columns::{Taker, put};
 use crate::LogError;
-use crate::container::Record;
+use crate::container::{Record, Schema};
 use crate::setup::Setup;
 
 /// The attachments as bytes; they are texts, and as attachments they would not be compressed. Then the
 /// channels: a tool that copies the compacted log leaves those out that have no message in it.
-pub fn encode(files: &[Record], definitions: &[Record]) -> Vec<u8> {
+pub fn encode(head: &[Record]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    put(&mut bytes, files.len() as u64);
-    for record in files {
-        let Record::Attachment(header, data) = record else { continue };
+    let files = head.iter().filter_map(|record| match record {
+        Record::Attachment(header, data) => Some((header, data)),
+        _ => None,
+    });
+    put(&mut bytes, files.clone().count() as u64);
+    for (header, data) in files {
         put(&mut bytes, header.log_time);
         put(&mut bytes, header.create_time);
         for part in [header.name.as_bytes(), header.media_type.as_bytes(), data] {
             put_sized(&mut bytes, part);
         }
     }
-    put(&mut bytes, definitions.len() as u64);
-    for record in definitions {
+    let is_definition = |record: &&Record| matches!(record, Record::Schema(_) | Record::Channel(_));
+    put(&mut bytes, head.iter().filter(is_definition).count() as u64);
+    for record in head {
         match record {
-            Record::Schema { id, name, encoding, text } => {
+            Record::Schema(Schema { id, name, encoding, text }) => {
                 put(&mut bytes, 0);
                 put(&mut bytes, u64::from(*id));
                 for part in [name.as_bytes(), encoding.as_bytes(), text] {
@@ -55,21 +59,20 @@ pub fn encode(files: &[Record], definitions: &[Record]) -> Vec<u8> {
 }
 
 /// The files that were attachments, and the definitions before the first message.
-pub fn decode(bytes: &[u8]) -> Result<(Vec<Record>, Vec<Record>), LogError> {
+pub fn decode(bytes: &[u8]) -> Result<Vec<Record>, LogError> {
     let mut from = Taker(bytes);
-    let mut files = Vec::new();
+    let mut head = Vec::new();
     for _ in 0..from.count(5)? {
         let (log_time, create_time) = (from.number()?, from.number()?);
         let (name, media_type) = (text(&mut from)?, text(&mut from)?);
         let header = AttachmentHeader { log_time, create_time, name, media_type };
-        files.push(Record::Attachment(header, from.sized()?.to_vec()));
+        head.push(Record::Attachment(header, from.sized()?.to_vec()));
     }
-    let mut definitions = Vec::new();
     for _ in 0..from.count(1)? {
-        definitions.push(match from.number()? {
+        head.push(match from.number()? {
             0 => {
                 let (id, name, encoding) = (id(&mut from)?, text(&mut from)?, text(&mut from)?);
-                Record::Schema { id, name, encoding, text: from.sized()?.to_vec() }
+                Record::Schema(Schema { id, name, encoding, text: from.sized()?.to_vec() })
             }
             1 => {
                 let (id, schema_id) = (id(&mut from)?, id(&mut from)?);
@@ -83,7 +86,7 @@ pub fn decode(bytes: &[u8]) -> Result<(Vec<Record>, Vec<Record>), LogError> {
             _ => return Err(broken("a definition of an unknown kind")),
         });
     }
-    Ok((files, definitions))
+    Ok(head)
 }
 
 fn put_sized(bytes: &mut Vec<u8>, part: &[u8]) {
@@ -100,10 +103,10 @@ fn id(from: &mut Taker<'_>) -> Result<u16, LogError> {
 }
 
 /// Those of the attachments that a flight is reflown from.
-pub fn setup_of(files: &[Record]) -> Result<Setup, LogError> {
+pub fn setup_of(head: &[Record]) -> Result<Setup, LogError> {
     let mut setup = Setup::default();
     for name in Setup::NAMES {
-        let file = files.iter().find(|file| file.name() == Some(name));
+        let file = head.iter().find(|file| file.name() == Some(name));
         let Some(Record::Attachment(_, data)) = file else {
             return Err(LogError::NotAFlight(format!("{name} is not in it")));
         };
@@ -115,7 +118,7 @@ pub fn setup_of(files: &[Record]) -> Result<Setup, LogError> {
 /// Writes a message type or a channel.
 pub fn define(to: &mut Writer<BufWriter<File>>, definition: &Record) -> Result<(), LogError> {
     match definition {
-        Record::Schema { id, name, encoding, text } => {
+        Record::Schema(Schema { id, name, encoding, text }) => {
             to.add_schema_with_id(*id, name, encoding, text)?;
         }
         Record::Channel(c) => {

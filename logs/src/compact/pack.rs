@@ -35,17 +35,18 @@ pub fn compact(
     mut progress: impl FnMut(u64),
 ) -> Result<Copied, LogError> {
     let mut from = LogFile::open(log)?.with_fingerprint();
-    let mut head = Head::default();
+    // What comes before the first message.
+    let mut head = Vec::new();
     let mut packing: Option<Pack> = None;
     let mut tail: Vec<Metadata> = Vec::new();
-    let mut record = Record::ChunkEnd;
+    let mut record = Record::default();
     let nothing = || LogError::NotAFlight("no message in it".into());
     while from.next(&mut record).map_err(cannot_be_used)? {
         if let (Record::Message(..), None) = (&record, &packing) {
             packing = Some(Pack::begin(&head, out, force, keyframe_ticks, aircraft_of)?);
         }
         let Some(pack) = &mut packing else {
-            head.take(&record)?;
+            head.push(record.clone());
             continue;
         };
         match &mut record {
@@ -82,35 +83,6 @@ pub fn compact(
     Ok(Copied { bytes_before: original.bytes, bytes, states: pack.states, same_file: None })
 }
 
-/// What comes before the first message.
-#[derive(Default)]
-struct Head {
-    profile: String,
-    library: String,
-    metadata: Vec<Metadata>,
-    files: Vec<Record>,
-    /// Message types and channels, in order.
-    definitions: Vec<Record>,
-}
-
-impl Head {
-    fn take(&mut self, record: &Record) -> Result<(), LogError> {
-        match record {
-            Record::Header { profile, library } => {
-                (self.profile, self.library) = (profile.clone(), library.clone());
-            }
-            Record::Metadata(record) if record.name == HEAD => {
-                return Err(LogError::NotAFlight("a log that is compacted already".into()));
-            }
-            Record::Metadata(record) => self.metadata.push(record.clone()),
-            Record::Attachment(..) => self.files.push(record.clone()),
-            Record::Schema { .. } | Record::Channel(_) => self.definitions.push(record.clone()),
-            Record::Message(..) | Record::ChunkEnd => {}
-        }
-        Ok(())
-    }
-}
-
 /// A compacted log being written.
 struct Pack {
     to: Writer<BufWriter<File>>,
@@ -130,30 +102,40 @@ struct Pack {
 
 impl Pack {
     fn begin(
-        head: &Head,
+        head: &[Record],
         out: &Path,
         force: bool,
         keyframe_ticks: u64,
         aircraft_of: AircraftOf,
     ) -> Result<Self, LogError> {
-        let identity = head
-            .metadata
-            .iter()
+        if head.iter().any(|record| record.name() == Some(HEAD)) {
+            return Err(LogError::NotAFlight("a log that is compacted already".into()));
+        }
+        let metadata = head.iter().filter_map(|record| match record {
+            Record::Metadata(record) => Some(record),
+            _ => None,
+        });
+        let identity = metadata
+            .clone()
             .find(|record| record.name == METADATA)
             .ok_or_else(|| LogError::NotAFlight("no `tiltrotor` metadata".into()))?;
         Identity(identity.metadata.clone()).refuse_other_versions()?;
-        let flown = aircraft_of(&setup_of(&head.files)?)?;
+        let flown = aircraft_of(&setup_of(head)?)?;
+        let (profile, library) = match head.first() {
+            Some(Record::Header { profile, library }) => (profile.as_str(), library.as_str()),
+            _ => ("", ""),
+        };
         let mut to = WriteOptions::new()
             .compression(Some(Compression::Zstd))
             .compression_level(12)
             .compression_threads(0)
             .chunk_size(None)
-            .profile(head.profile.clone())
-            .library(head.library.clone())
+            .profile(profile)
+            .library(library)
             .disable_seeking(true)
             .create(BufWriter::new(create(out, force)?))?;
         to.write_metadata(&facts(HEAD, [("version", VERSION.to_string())]))?;
-        for record in &head.metadata {
+        for record in metadata {
             to.write_metadata(record)?;
         }
         let schema = b"uint8[] data\n";
@@ -171,8 +153,8 @@ impl Pack {
             states: 0,
             keyframe_ticks: keyframe_ticks.max(1),
         };
-        pack.write_bytes(0, &encode(&head.files, &head.definitions))?;
-        head.definitions.iter().try_for_each(|definition| pack.define(definition))?;
+        pack.write_bytes(0, &encode(head))?;
+        head.iter().try_for_each(|record| pack.define(record))?;
         Ok(pack)
     }
 

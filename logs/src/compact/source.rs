@@ -12,7 +12,7 @@ use super::flier::{AircraftOf, Flier};
 use super::{HEAD, ID, TAIL, TOPIC};
 use crate::channels::{Channel, Compacted as How, compacted};
 use crate::container::checksums::add_message;
-use crate::container::{Compacted, LogFile, Record, RecordSource};
+use crate::container::{Compacted, LogFile, Record, RecordSource, Schema};
 use crate::records::{STATE, StateRecord};
 use crate::setup::{Identity, METADATA};
 use crate::writer::stamped;
@@ -80,7 +80,7 @@ impl Expander {
     /// When it cannot be read, or is one of another form.
     pub fn is_compacted(path: &Path) -> Result<bool, LogError> {
         let mut file = LogFile::open(path)?;
-        let mut record = Record::ChunkEnd;
+        let mut record = Record::default();
         // Our writers put the metadata first, and that which says so before all; of other programs'
         // files, all that comes before the first message is looked at.
         while let Ok(true) = file.next(&mut record) {
@@ -99,7 +99,7 @@ impl Expander {
     pub fn new(file: LogFile, aircraft_of: AircraftOf, across: bool) -> Self {
         Self {
             file,
-            record: Record::ChunkEnd,
+            record: Record::default(),
             aircraft_of,
             across,
             blind: false,
@@ -140,14 +140,14 @@ impl Expander {
     /// Takes a record of the file; `true` when the log that was compacted has it, too.
     fn take(&mut self, record: &mut Record) -> Result<bool, LogError> {
         match record {
-            Record::ChunkEnd | Record::Schema { id: ID, .. } => {}
-            Record::Schema { name, .. } => {
-                // The log's own definitions came with its files.
-                return Ok(self.begun && self.schemas.insert(name.clone()));
-            }
+            Record::ChunkEnd => {}
+            Record::Schema(Schema { id: ID, .. }) => {}
+            // The log's own definitions come with its files.
+            Record::Schema(_) => return Ok(self.begun && self.is_new(record)),
             Record::Channel(channel) => {
                 self.topics.insert(channel.id, channel.topic.clone());
-                return Ok(self.begun && channel.topic != TOPIC && self.is_new(channel));
+                let own = channel.topic != TOPIC;
+                return Ok(self.begun && own && self.is_new(record));
             }
             Record::Metadata(head) if head.name == HEAD => {}
             Record::Metadata(tail) if tail.name == TAIL => self.tail = Some(Tail::of(tail)),
@@ -176,11 +176,17 @@ impl Expander {
         Ok(false)
     }
 
-    /// Whether a channel is not known yet; from now on it is.
-    fn is_new(&mut self, channel: &mcap::records::Channel) -> bool {
-        let new = !self.ids.contains_key(&channel.topic);
-        self.ids.entry(channel.topic.clone()).or_insert(channel.id);
-        new
+    /// Whether a definition is not known yet; from now on it is.
+    fn is_new(&mut self, record: &Record) -> bool {
+        match record {
+            Record::Schema(schema) => self.schemas.insert(schema.name.clone()),
+            Record::Channel(channel) => {
+                let new = !self.ids.contains_key(&channel.topic);
+                self.ids.entry(channel.topic.clone()).or_insert(channel.id);
+                new
+            }
+            _ => true,
+        }
     }
 
     /// Files, or a block.
@@ -202,8 +208,8 @@ impl Expander {
     }
 
     fn unpack_files(&mut self, bytes: &[u8]) -> Result<(), LogError> {
-        let (files, definitions) = decode(bytes)?;
-        let setup = setup_of(&files)?;
+        let head = decode(bytes)?;
+        let setup = setup_of(&head)?;
         if !self.blind {
             match (self.aircraft_of)(&setup) {
                 Ok(flown) => self.flier = Some(Flier::new(flown)),
@@ -212,15 +218,9 @@ impl Expander {
                 Err(error) => return Err(error),
             }
         }
-        self.ready.extend(files);
-        for definition in definitions {
-            let new = match &definition {
-                Record::Schema { name, .. } => self.schemas.insert(name.clone()),
-                Record::Channel(channel) => self.is_new(channel),
-                _ => false,
-            };
-            if new {
-                self.ready.push_back(definition);
+        for record in head {
+            if self.is_new(&record) {
+                self.ready.push_back(record);
             }
         }
         Ok(())
@@ -370,7 +370,7 @@ impl RecordSource for Expander {
             if self.next_of_block(record)? {
                 return Ok(true);
             }
-            let mut of_file = std::mem::replace(&mut self.record, Record::ChunkEnd);
+            let mut of_file = std::mem::take(&mut self.record);
             if !self.file.next(&mut of_file)? {
                 return self.close().map(|()| false);
             }
@@ -384,7 +384,7 @@ impl RecordSource for Expander {
 
     fn seek(&mut self, tick: u64) -> Result<(), LogError> {
         // A block begins where the one before ends, with its keyframe.
-        if self.file.jump_before(tick)? {
+        if self.file.jump_before(tick, 1)? {
             self.block = None;
             self.plain.clear();
             self.ready.clear();

@@ -10,7 +10,7 @@ use mcap::records::Record as Parsed;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::checksums::Fingerprint;
-use super::record::{RECORD_BYTES_MAX, Record, parse};
+use super::record::{RECORD_BYTES_MAX, Record, Schema, parse};
 use super::{Index, RecordSource};
 use crate::LogError;
 use crate::setup::{self, COMPACT_HEAD, METADATA, Setup};
@@ -107,13 +107,15 @@ impl LogFile {
         Ok(())
     }
 
-    /// Goes to the chunk before the one that reaches a tick; `false` where the file's index says of
+    /// Goes so many chunks before the one that reaches a tick; `false` where the file's index says of
     /// none.
-    pub fn jump_before(&mut self, tick: u64) -> Result<bool, LogError> {
+    pub fn jump_before(&mut self, tick: u64, chunks: usize) -> Result<bool, LogError> {
         let Some(index) = self.path.as_deref().and_then(Index::read) else { return Ok(false) };
-        let place = index.chunk_of(tick).and_then(|place| place.checked_sub(1));
+        let place = index.chunk_of(tick).and_then(|place| place.checked_sub(chunks));
         let Some(place) = place.filter(|&place| place > 0) else { return Ok(false) };
-        self.jump(index.chunks[place].offset).map(|()| true)
+        self.jump(index.chunks[place].offset)?;
+        self.ready.extend(index.definitions);
+        Ok(true)
     }
 
     fn read(&mut self, into: &mut Record) -> Result<bool, LogError> {
@@ -132,13 +134,9 @@ impl LogFile {
                 }
             };
             let parsed = parse(opcode, data)?;
-            let part = part_of(&parsed, self.part);
-            if let Some(what) = misplaced(&parsed, part, self.part) {
-                return Err(LogError::Damaged(what));
-            }
-            self.part = part;
+            self.part = part_of(&parsed, self.part)?;
             // The summary repeats what was said; only its checksum and its order count.
-            if part > Part::Data {
+            if self.part > Part::Data {
                 continue;
             }
             if let Parsed::MessageIndex(_) = parsed {
@@ -148,8 +146,10 @@ impl LogFile {
                 *into = Record::ChunkEnd;
                 return Ok(true);
             }
-            self.in_chunk |=
-                matches!(parsed, Parsed::Schema { .. } | Parsed::Channel(_) | Parsed::Message { .. });
+            self.in_chunk |= matches!(
+                parsed,
+                Parsed::Schema { .. } | Parsed::Channel(_) | Parsed::Message { .. }
+            );
             match parsed {
                 Parsed::Message { header, data } => into.message(header).extend_from_slice(&data),
                 Parsed::Header(header) => {
@@ -157,7 +157,7 @@ impl LogFile {
                 }
                 Parsed::Schema { header, data } => {
                     let (id, name, encoding) = (header.id, header.name, header.encoding);
-                    *into = Record::Schema { id, name, encoding, text: data.into_owned() };
+                    *into = Record::Schema(Schema { id, name, encoding, text: data.into_owned() });
                 }
                 Parsed::Channel(channel) => *into = Record::Channel(channel),
                 Parsed::Metadata(metadata) => *into = Record::Metadata(metadata),
@@ -200,13 +200,13 @@ impl LogFile {
         let Some(path) = &self.path else { return Ok(Vec::new()) };
         let mut found: Vec<Record> = Vec::new();
         let mut file = Self::open(path)?;
-        let mut record = Record::ChunkEnd;
+        let mut record = Record::default();
         let mut take = |record: &mut Record| {
             let name = record.name().unwrap_or_default();
             let met = self.met.iter().map(String::as_str);
             let known = met.chain(found.iter().filter_map(Record::name)).any(|met| met == name);
             if setup::opens_a_flight(name) && !known {
-                found.push(std::mem::replace(record, Record::ChunkEnd));
+                found.push(std::mem::take(record));
             }
         };
         if let Some(index) = Index::read(path) {
@@ -243,7 +243,7 @@ impl RecordSource for LogFile {
                 if self.lacks_files() {
                     self.ahead = self.files_ahead()?;
                     self.ready.extend(self.ahead.iter().cloned());
-                    self.ready.push_back(std::mem::replace(record, Record::ChunkEnd));
+                    self.ready.push_back(std::mem::take(record));
                     continue;
                 }
             } else if let Some(name) = record.name() {
@@ -259,11 +259,7 @@ impl RecordSource for LogFile {
     }
 
     fn seek(&mut self, tick: u64) -> Result<(), LogError> {
-        let Some(index) = self.path.as_deref().and_then(Index::read) else { return Ok(()) };
-        let Some(place) = index.chunk_of(tick).filter(|&place| place > 0) else { return Ok(()) };
-        self.jump(index.chunks[place].offset)?;
-        self.ready.extend(index.definitions);
-        Ok(())
+        self.jump_before(tick, 0).map(|_| ())
     }
 }
 
@@ -274,31 +270,24 @@ fn remember(tail: &mut Vec<u8>, read: &[u8]) {
     tail.drain(..tail.len().saturating_sub(kept));
 }
 
-/// The part of the file that a record is in, or begins.
-fn part_of(record: &Parsed<'_>, now: Part) -> Part {
-    match record {
-        Parsed::Header(_) => Part::Data,
-        Parsed::DataEnd(_) => Part::Index,
-        Parsed::Footer(_) => Part::Footer,
-        _ => now,
+/// The part of the file that a record is in, or begins; what is wrong with its place, if anything.
+fn part_of(record: &Parsed<'_>, now: Part) -> Result<Part, LogError> {
+    use Parsed::{Attachment, DataEnd, Footer, Header, Message, Metadata, Unknown};
+    match (record, now) {
+        (Unknown { opcode, .. }, _) => {
+            Err(LogError::Damaged(format!("a record of a kind that no log has (0x{opcode:02x})")))
+        }
+        (Header(_), Part::Start) => Ok(Part::Data),
+        (DataEnd(_), Part::Data) => Ok(Part::Index),
+        (Footer(_), Part::Index) => Ok(Part::Footer),
+        (Message { .. } | Attachment { .. } | Metadata(_), Part::Data) => Ok(now),
+        (Header(_) | DataEnd(_) | Footer(_), _)
+        | (Message { .. } | Attachment { .. } | Metadata(_), _)
+        | (_, Part::Start | Part::Footer) => {
+            Err(LogError::Damaged("a record where it does not belong".into()))
+        }
+        _ => Ok(now),
     }
-}
-
-/// What is wrong with a record's place, if anything.
-fn misplaced(record: &Parsed<'_>, part: Part, before: Part) -> Option<String> {
-    let repeated = match record {
-        Parsed::Header(_) => before != Part::Start,
-        Parsed::DataEnd(_) => before != Part::Data,
-        Parsed::Footer(_) => before != Part::Index,
-        Parsed::Unknown { opcode, .. } => {
-            return Some(format!("a record of a kind that no log has (0x{opcode:02x})"));
-        }
-        Parsed::Message { .. } | Parsed::Attachment { .. } | Parsed::Metadata(_) => {
-            part != Part::Data
-        }
-        _ => part == Part::Start || part == Part::Footer,
-    };
-    repeated.then(|| "a record where it does not belong".to_string())
 }
 
 /// What MCAP's own checks found, and where that is.

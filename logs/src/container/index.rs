@@ -7,10 +7,10 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use mcap::records::Channel;
+use mcap::records::{Channel, ChunkIndex};
 use mcap::sans_io::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
 
-use super::record::{RECORD_BYTES_MAX, Record};
+use super::record::{RECORD_BYTES_MAX, Record, Schema};
 use crate::records::{EVENTS, time_ns};
 use crate::setup::{self, CLOSING};
 
@@ -56,21 +56,16 @@ impl Index {
 
     fn of(summary: &mcap::Summary) -> Self {
         let events = summary.channels.values().find(|channel| channel.topic == EVENTS);
-        let has_events = |chunk: &mcap::records::ChunkIndex| {
-            events.is_some_and(|events| chunk.message_index_offsets.contains_key(&events.id))
-        };
-        let place = |chunk: &mcap::records::ChunkIndex| Place {
+        let place = |chunk: &ChunkIndex| Place {
             offset: chunk.chunk_start_offset,
             end_ns: chunk.message_end_time,
-            has_events: has_events(chunk),
+            has_events: events.is_some_and(|e| chunk.message_index_offsets.contains_key(&e.id)),
         };
         let mut chunks: Vec<_> = summary.chunk_indexes.iter().map(place).collect();
         chunks.sort_by_key(|chunk| chunk.offset);
-        let schemas = summary.schemas.values().map(|schema| Record::Schema {
-            id: schema.id,
-            name: schema.name.clone(),
-            encoding: schema.encoding.clone(),
-            text: schema.data.to_vec(),
+        let schemas = summary.schemas.values().map(|schema| {
+            let (name, encoding) = (schema.name.clone(), schema.encoding.clone());
+            Record::Schema(Schema { id: schema.id, name, encoding, text: schema.data.to_vec() })
         });
         let channels = summary.channels.values().map(|channel| {
             Record::Channel(Channel {

@@ -8,7 +8,7 @@ mod record;
 
 pub(crate) use file::{LogFile, NOT_MCAP};
 pub(crate) use index::Index;
-pub(crate) use record::{RECORD_BYTES_MAX, Record};
+pub(crate) use record::{RECORD_BYTES_MAX, Record, Schema};
 
 use engine::{Outputs, State};
 
@@ -33,6 +33,23 @@ pub(crate) trait RecordSource: Send {
     /// How the last state came about, if the file is compacted.
     fn compacted(&self) -> Option<Compacted<'_>> {
         None
+    }
+}
+
+/// Nothing at all: of a reader before it has its source.
+impl RecordSource for std::io::Empty {
+    fn next(&mut self, _: &mut Record) -> Result<bool, LogError> {
+        Ok(false)
+    }
+
+    fn seek(&mut self, _: u64) -> Result<(), LogError> {
+        Ok(())
+    }
+}
+
+impl Default for Box<dyn RecordSource> {
+    fn default() -> Self {
+        Box::new(std::io::empty())
     }
 }
 

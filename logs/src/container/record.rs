@@ -7,22 +7,32 @@ use mcap::records::{AttachmentHeader, Channel, MessageHeader, Metadata, op};
 pub(crate) const RECORD_BYTES_MAX: usize = 4 << 20;
 
 /// A record that a flight log has, as it stands there.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Record {
     /// Of the file.
     Header { profile: String, library: String },
     /// A message type.
-    Schema { id: u16, name: String, encoding: String, text: Vec<u8> },
+    Schema(Schema),
     /// A channel.
     Channel(Channel),
     /// A message.
     Message(MessageHeader, Vec<u8>),
     /// Here the writer closed a chunk.
+    #[default]
     ChunkEnd,
     /// Facts.
     Metadata(Metadata),
     /// A file.
     Attachment(AttachmentHeader, Vec<u8>),
+}
+
+/// A message type, as a file says it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Schema {
+    pub id: u16,
+    pub name: String,
+    pub encoding: String,
+    pub text: Vec<u8>,
 }
 
 impl Record {

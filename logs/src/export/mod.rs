@@ -13,6 +13,7 @@ mod flights;
 #[cfg(feature = "parquet")]
 mod parquet;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -92,10 +93,10 @@ impl Column {
 }
 
 /// A value of a row.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Cell<'a> {
     Number(Value),
-    Text(&'a str),
+    Text(Cow<'a, str>),
 }
 
 /// A file of rows being written.
@@ -149,7 +150,7 @@ pub fn export(
             _ => LogError::NotAFlight("it has no /state".into()),
         });
     };
-    tables.add_flight(&flight.row(&messages, &ending))?;
+    tables.add_flight(flight.row(&messages, &ending))?;
     let (rows, bytes) = tables.finish(&name)?;
     Ok(Exported { flight: name, rows, bytes, ending })
 }
@@ -215,7 +216,8 @@ impl Tables {
                 None => self.open("log", &with_time(&columns), None)?,
             };
             open.rows += 1;
-            return open.table.push(&[time[0], time[1], level, Cell::Text(&remark.words)]);
+            let [ns, s] = time;
+            return open.table.push(&[ns, s, level, Cell::Text(remark.words.into())]);
         }
         let Some(layout) = message.layout() else { return Ok(()) };
         let name = message.topic().trim_start_matches('/').replace('/', "_");
@@ -236,9 +238,8 @@ impl Tables {
     }
 
     /// The flight's row in the table of flights.
-    fn add_flight(&mut self, row: &[(Column, flights::Fact)]) -> Result<(), LogError> {
-        let columns: Vec<_> = row.iter().map(|(column, _)| column.clone()).collect();
-        let cells: Vec<_> = row.iter().map(|(_, fact)| fact.cell()).collect();
+    fn add_flight(&mut self, row: Vec<(Column, Cell)>) -> Result<(), LogError> {
+        let (columns, cells): (Vec<_>, Vec<_>) = row.into_iter().unzip();
         let open = self.open("flights", &columns, None)?;
         open.rows += 1;
         open.table.push(&cells)

@@ -14,7 +14,7 @@ pub fn closing(path: &Path) -> Option<(u64, u64)> {
     let offset = Index::read(path)?.closing?;
     let mut file = LogFile::open(path).ok()?;
     file.jump(offset).ok()?;
-    let mut record = Record::ChunkEnd;
+    let mut record = Record::default();
     match (file.next(&mut record).ok()?, record) {
         (true, Record::Metadata(record)) if record.name == CLOSING => {
             last_word(&record.metadata).map(|word| word.last)
@@ -35,7 +35,7 @@ pub fn marker(path: &Path, number: u64) -> Result<u64, LogError> {
     // events.
     let mut waiting = Index::read(path)
         .map(|index| index.chunks.into_iter().skip(1).filter(|chunk| chunk.has_events));
-    let mut record = Record::ChunkEnd;
+    let mut record = Record::default();
     // Up to a cut or to damage there may be markers, too: whoever reads on will hear of it.
     while let Ok(true) = file.next(&mut record) {
         match &record {

@@ -99,10 +99,9 @@ impl Messages {
                         return Some(&self.message);
                     }
                 }
-                Record::Metadata(record) => self.facts.push((
-                    std::mem::take(&mut record.name),
-                    std::mem::take(&mut record.metadata),
-                )),
+                Record::Metadata(record) => self
+                    .facts
+                    .push((std::mem::take(&mut record.name), std::mem::take(&mut record.metadata))),
                 Record::Attachment(header, data) => {
                     self.files.push((std::mem::take(&mut header.name), std::mem::take(data)));
                 }

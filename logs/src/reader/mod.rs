@@ -46,9 +46,10 @@ pub struct Tick {
 }
 
 /// How the file ends.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Ending {
     /// As the writer ended it.
+    #[default]
     Closed,
     /// Short of its end: the program was killed, or the file was cut.
     Truncated,
@@ -57,6 +58,7 @@ pub enum Ending {
 }
 
 /// A flight being read.
+#[derive(Default)]
 pub struct FlightReader {
     stream: Stream,
     /// The tick that was read last; its room is used again.
@@ -112,31 +114,7 @@ impl FlightReader {
 
     /// Reads up to the state at the start.
     pub(crate) fn over(source: Box<dyn RecordSource>) -> Result<Self, LogError> {
-        let mut reader = Self {
-            stream: Stream::over(source),
-            tick: Tick::default(),
-            setup: Setup::default(),
-            identity: Identity::default(),
-            other_facts: Vec::new(),
-            robot_description: String::new(),
-            initial: State::default(),
-            until_tick: None,
-            intact: false,
-            same_model: false,
-            mappings: Mappings::default(),
-            first: Vec::new(),
-            chain: Chain::default(),
-            has_inputs: false,
-            last: (0, 0),
-            unbroken: false,
-            closing: None,
-            happenings: Vec::new(),
-            remarks: Vec::new(),
-            timings: Vec::new(),
-            keep_outputs: false,
-            outputs: Vec::new(),
-            ending: None,
-        };
+        let mut reader = Self { stream: Stream::over(source), ..Self::default() };
         let mut found: Vec<&str> = Vec::new();
         while reader.stream.advance() {
             if let Record::Attachment(header, data) = &mut reader.stream.record {
@@ -206,8 +184,7 @@ impl FlightReader {
         self.same_model = self.identity.get(Identity::MODEL) == engine::MODEL_VERSION;
         let first: StateRecord = self.mappings.decode(ours, channel.foreign_layout(), data)?;
         without_digest(data, &mut self.tick.state_message);
-        self.intact =
-            first_digest(&self.setup.files(), &self.tick.state_message) == first.digest;
+        self.intact = first_digest(&self.setup.files(), &self.tick.state_message) == first.digest;
         self.first.clone_from(data);
         self.stand_at(&first);
         Ok(true)

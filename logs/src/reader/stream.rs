@@ -8,7 +8,7 @@ use mcap::records::Channel as Definition;
 use super::Ending;
 use crate::channels::{Channel, ChannelId};
 use crate::container::checksums::RollCalls;
-use crate::container::{Record, RecordSource};
+use crate::container::{Record, RecordSource, Schema};
 use crate::layout::Layout;
 use crate::{LogError, cdr, schema};
 
@@ -22,7 +22,7 @@ pub(super) struct FileChannel {
     pub id: Option<ChannelId>,
     /// Whether its definition is today's, to the letter.
     todays: bool,
-    definition: Arc<MessageType>,
+    definition: Arc<Schema>,
 }
 
 impl FileChannel {
@@ -32,22 +32,15 @@ impl FileChannel {
     }
 }
 
-/// What a channel's messages are, as the log says it.
-#[derive(Debug, Default, PartialEq, Eq)]
-struct MessageType {
-    name: String,
-    encoding: String,
-    text: Vec<u8>,
-}
-
 /// Records of a log.
+#[derive(Default)]
 pub(super) struct Stream {
     pub source: Box<dyn RecordSource>,
     /// The record that was read last.
     pub record: Record,
     /// Its channel, if it is a message.
     pub channel: Arc<FileChannel>,
-    types: BTreeMap<u16, Arc<MessageType>>,
+    types: BTreeMap<u16, Arc<Schema>>,
     channels: BTreeMap<u16, Arc<FileChannel>>,
     pub roll_calls: RollCalls,
     /// The first thing that no checksum found and that is not as written.
@@ -61,18 +54,7 @@ pub(super) struct Stream {
 
 impl Stream {
     pub fn over(source: Box<dyn RecordSource>) -> Self {
-        Self {
-            source,
-            record: Record::ChunkEnd,
-            channel: Arc::default(),
-            types: BTreeMap::new(),
-            channels: BTreeMap::new(),
-            roll_calls: RollCalls::default(),
-            oddity: None,
-            ending: Ending::Closed,
-            sought: false,
-            refused: None,
-        }
+        Self { source, ..Self::default() }
     }
 
     pub fn oddity(&mut self, what: &str) {
@@ -116,10 +98,8 @@ impl Stream {
                     return true;
                 }
                 Record::Metadata(_) | Record::Attachment(..) => return true,
-                Record::Schema { id, name, encoding, text } => {
-                    let (name, encoding, text) =
-                        (std::mem::take(name), std::mem::take(encoding), std::mem::take(text));
-                    self.types.insert(*id, Arc::new(MessageType { name, encoding, text }));
+                Record::Schema(schema) => {
+                    self.types.insert(schema.id, Arc::new(std::mem::take(schema)));
                 }
                 Record::Channel(channel) => {
                     let channel = channel.clone();
