@@ -1,7 +1,7 @@
 //! Numbers that the engine could not work with, refused before it meets them.
 
+use engine::inertia::Inertia;
 use engine::math::PI;
-use engine::weight_balance::Inertia;
 
 use crate::error::{ConfigError, Problem};
 use crate::tree::{Node, Value};

@@ -6,10 +6,11 @@
 
 use engine::Aircraft;
 use engine::aero::{
-    Motion, fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
+    fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
 };
 use engine::frames::{Body, Load, Vec3};
 use engine::math::{PI, sqrt, square};
+use engine::motion::Motion;
 use engine::pair::Pair;
 
 const DEG: f64 = PI / 180.0;

@@ -2,9 +2,10 @@
 
 use engine::Aircraft;
 use engine::aero::wake_footprint::{Footprint, footprint};
-use engine::aero::{Motion, wing_pylon};
+use engine::aero::wing_pylon;
 use engine::frames::{Body, Vec3};
 use engine::math::PI;
+use engine::motion::Motion;
 
 const DEG: f64 = PI / 180.0;
 const FT: f64 = 0.3048;

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use crate::frames::{Body, Load, Ned, Rotation, Structural, Vec3};
 use crate::math::{clamp, max, min, sqrt, square};
 use crate::pair::Pair;
+use crate::struts::Struts;
 use crate::{GRAVITY_MPS2, STEP_S};
 
 /// Past the stroke the strut is this much stiffer.
@@ -72,15 +73,6 @@ pub struct Params {
     pub retraction_m: f64,
     /// h_hull: nearer to the ground than this the centre of gravity does not come, any way up.
     pub hull_height_m: f64,
-}
-
-/// One of each strut.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Struts<T> {
-    /// Nose.
-    pub nose: T,
-    /// Mains.
-    pub main: Pair<T>,
 }
 
 /// What a strut's tyres remember: how far their tread is strained.

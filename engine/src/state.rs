@@ -6,10 +6,12 @@ use alloc::string::String;
 use serde::{Deserialize, Serialize};
 
 use crate::aero::horizontal_stabilizer;
+use crate::controls::PilotControls;
 use crate::frames::{Attitude, Body, Ned, Vec3};
-use crate::landing_gear::{Struts, Tread};
+use crate::landing_gear::Tread;
 use crate::pair::Pair;
-use crate::{actuators, cockpit, engines, environment, eom, fcc, rotors};
+use crate::struts::Struts;
+use crate::{actuators, engines, environment, eom, fcc, rotors};
 
 /// The whole state. No pointers, no NaN, no −0.0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -19,7 +21,7 @@ pub struct State {
     /// 1 once a number of the motion stopped being finite: the aircraft stands still from there.
     pub frozen: u64,
     /// Where the pilot holds everything.
-    pub cockpit: cockpit::State,
+    pub cockpit: PilotControls,
     /// Flight control computer.
     pub fcc: fcc::State,
     /// Actuators.
@@ -167,7 +169,7 @@ impl<T: Numbers> Numbers for Struts<T> {
 
 numbers! {
     State { tick, frozen, cockpit, fcc, actuators, environment, plant, rate }
-    cockpit::State {
+    PilotControls {
         stick_aft_norm, stick_right_norm, collective_norm, pedal_right_norm, brake_norm,
         nacelle_aft_norm, flap_detent, gear_down, parking_brake, scas_on, rpm_select, markers,
     }

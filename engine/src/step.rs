@@ -8,16 +8,16 @@
 //! # Assumptions
 //! Cockpit, computer, actuators and tyres are sampled: they move once a tick and hold through it.
 
-use crate::aero::{
-    Motion, fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
-};
+use crate::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
 use crate::frames::{Body, Euler, Load, Ned, Rotation, Structural, Vec3};
 use crate::inputs::World;
-use crate::landing_gear::{Struts, Tread};
+use crate::landing_gear::Tread;
 use crate::math::{PI, TAU, atan2, max, min, sqrt, square};
+use crate::motion::Motion;
 use crate::outputs::{EulerRate, Loads, Outputs, calibrated_airspeed, place, validity};
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
+use crate::struts::Struts;
 use crate::symmetry::unmirrored;
 use crate::{
     Aircraft, Inputs, STEP_S, actuators, cockpit, engines, environment, eom, fcc, landing_gear,
@@ -292,7 +292,8 @@ impl Blocks {
         let rate = PlantRate {
             motion: eom::motion(&eom::Inputs {
                 load: total,
-                balance,
+                mass_kg: balance.mass_kg,
+                inertia: balance.inertia,
                 ned_from_body,
                 angular_rate_radps: plant.angular_rate_radps,
                 spin_up_n_m: spin_up,

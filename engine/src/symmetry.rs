@@ -2,12 +2,14 @@
 //!
 //! A mirrored flight is the mirrored state, to the bit. North–down is the mirror plane of the world.
 
+use crate::controls::PilotControls;
 use crate::frames::Load;
 use crate::inputs::{World, failures};
-use crate::landing_gear::{Struts, Tread};
+use crate::landing_gear::Tread;
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
-use crate::{actuators, cockpit, engines, environment, eom, fcc};
+use crate::struts::Struts;
+use crate::{actuators, engines, environment, eom, fcc};
 
 /// Has a mirror image in the plane of symmetry.
 pub trait Mirror {
@@ -31,7 +33,7 @@ impl Mirror for State {
     }
 }
 
-impl Mirror for cockpit::State {
+impl Mirror for PilotControls {
     fn mirrored(&self) -> Self {
         Self {
             stick_right_norm: -self.stick_right_norm,

@@ -1,9 +1,10 @@
 //! A mass on the main struts is the damped oscillator of the textbook.
 
 use engine::frames::{Attitude, Vec3};
-use engine::landing_gear::{Inputs, Params, Strut, Struts, landing_gear};
+use engine::landing_gear::{Inputs, Params, Strut, landing_gear};
 use engine::math::{cos, exp, sin, sqrt};
 use engine::pair::Pair;
+use engine::struts::Struts;
 use engine::{GRAVITY_MPS2, STEP_S};
 
 const MASS_KG: f64 = 5000.0;

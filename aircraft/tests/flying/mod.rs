@@ -290,7 +290,7 @@ pub fn energy_j(xv15: &Aircraft, state: &State, outputs: &Outputs) -> f64 {
 
 /// Angular momentum of the rigid body, I·ω.
 pub fn turning(
-    inertia: engine::weight_balance::Inertia,
+    inertia: engine::inertia::Inertia,
     w: Vec3<engine::frames::Body>,
 ) -> Vec3<engine::frames::Body> {
     Vec3::new(

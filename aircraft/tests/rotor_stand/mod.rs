@@ -1,9 +1,9 @@
 //! A test stand: one right rotor alone, settled.
 #![allow(dead_code, reason = "each test uses its part of the stand")]
 
-use engine::aero::Motion;
 use engine::frames::Vec3;
 use engine::math::{PI, square};
+use engine::motion::Motion;
 use engine::rotors::{Inputs, Outputs, Params, State, rotor};
 
 const DEG: f64 = PI / 180.0;

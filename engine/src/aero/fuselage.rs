@@ -17,9 +17,10 @@
 
 use serde::Deserialize;
 
-use super::{Motion, ahead, flow};
+use super::{ahead, flow};
 use crate::frames::{Load, Structural, Vec3};
 use crate::math::{FRAC_PI_2, PI, cos, sign, sin, square};
+use crate::motion::Motion;
 use crate::table::Table1;
 
 /// What the fuselage is. Tables over α are printed for ±90°, those over β for positive ones.

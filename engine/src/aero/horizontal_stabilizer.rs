@@ -21,9 +21,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::polar::ByMach;
-use super::{Motion, flow, in_body_axes, load_at};
+use super::{flow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{PI, atan2, max, min, sqrt, square, wrap_angle};
+use crate::motion::Motion;
 use crate::table::{Table1, Table2, Table3};
 
 const DEG: f64 = PI / 180.0;

@@ -16,9 +16,10 @@
 
 use serde::Deserialize;
 
-use super::{Motion, flow};
+use super::flow;
 use crate::frames::{Body, Vec3};
 use crate::math::{PI, cos, max, sin, square};
+use crate::motion::Motion;
 use crate::pair::Pair;
 use crate::table::{Table2, Table3};
 

@@ -20,9 +20,10 @@
 use serde::Deserialize;
 
 use super::polar::{ByMach, Flap};
-use super::{Motion, ahead, flow, load_at};
+use super::{ahead, flow, load_at};
 use crate::frames::{Load, Structural, Vec3};
 use crate::math::{PI, atan2, cos, max, ramp, sin, sqrt, square};
+use crate::motion::Motion;
 use crate::table::{Table1, Table2, Table3};
 
 const DEG: f64 = PI / 180.0;

@@ -18,7 +18,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Sensed;
+use super::sensed::Sensed;
 use crate::math::{clamp, cos, max, min, sin, wrap_angle};
 use crate::{GRAVITY_MPS2, STEP_S};
 

@@ -31,9 +31,9 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::aero::Motion;
 use crate::frames::{Body, Load, Mast, Rotation, Structural, Vec3};
 use crate::math::{PI, cos, max, sin, square, tan};
+use crate::motion::Motion;
 
 /// What a rotor is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
