@@ -381,7 +381,7 @@ fn the_fins_turn_the_nose_into_the_wind() {
             pressure_ratio: 1.0,
             rudder_rad: 0.0,
         };
-        vertical_stabilizers::fin(&xv15.vertical_stabilizers, &inputs).moment_n_m.z
+        vertical_stabilizers::evaluate(&xv15.vertical_stabilizers, &inputs).moment_n_m.z
     };
     let per_rad = (fins(0.02) - fins(-0.02)) / 0.02 / 1.355_818;
     println!("fins: {per_rad:.0} ft lb/rad");

@@ -47,7 +47,7 @@ pub struct Rate {
 }
 
 /// Accelerations.
-pub fn motion(inputs: &Inputs) -> Rate {
+pub fn evaluate(inputs: &Inputs) -> Rate {
     let gravity = Vec3::<Ned>::new(0.0, 0.0, GRAVITY_MPS2);
     let force = inputs.ned_from_body * inputs.load.force_n;
     let acceleration_mps2 = force * (1.0 / inputs.mass_kg) + gravity;
@@ -88,7 +88,7 @@ mod tests {
     /// Euler's equation by hand: ṗ = (I_yy − I_zz)·q·r/I_xx.
     #[test]
     fn a_body_that_pitches_and_yaws_begins_to_roll() {
-        let rate = motion(&inputs(2000.0, Vec3::new(0.0, 0.2, 0.3)));
+        let rate = evaluate(&inputs(2000.0, Vec3::new(0.0, 0.2, 0.3)));
         assert!((rate.angular_acceleration_radps2.x + 2000.0 * 0.06 / 2000.0).abs() < 1e-12);
         assert_eq!(rate.acceleration_mps2, Vec3::new(0.0, 0.0, GRAVITY_MPS2));
     }
@@ -98,6 +98,6 @@ mod tests {
     fn a_rotor_spun_up_turns_the_body_the_other_way() {
         let spun =
             Inputs { spin_up_n_m: Vec3::new(0.0, 0.0, -600.0), ..inputs(2000.0, Vec3::zero()) };
-        assert!((motion(&spun).angular_acceleration_radps2.z - 0.2).abs() < 1e-12);
+        assert!((evaluate(&spun).angular_acceleration_radps2.z - 0.2).abs() < 1e-12);
     }
 }

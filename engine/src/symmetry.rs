@@ -5,7 +5,7 @@
 use crate::controls::PilotControls;
 use crate::frames::Load;
 use crate::inputs::{World, failures};
-use crate::landing_gear::Tread;
+use crate::landing_gear::TyreDeflection;
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
 use crate::struts::Struts;
@@ -94,17 +94,17 @@ impl Mirror for Plant {
             angular_rate_radps: self.angular_rate_radps.mirrored_axial(),
             rotors: self.rotors.swapped(),
             engines: self.engines.swapped(),
-            treads: Struts {
-                nose: mirrored_tread(self.treads.nose),
-                main: self.treads.main.swapped().map(mirrored_tread),
+            tyre_deflections: Struts {
+                nose: mirrored_deflection(self.tyre_deflections.nose),
+                main: self.tyre_deflections.main.swapped().map(mirrored_deflection),
             },
             ..*self
         }
     }
 }
 
-fn mirrored_tread(tread: Tread) -> Tread {
-    Tread { right_m: -tread.right_m, ..tread }
+fn mirrored_deflection(deflection: TyreDeflection) -> TyreDeflection {
+    TyreDeflection { right_m: -deflection.right_m, ..deflection }
 }
 
 impl Mirror for PlantRate {

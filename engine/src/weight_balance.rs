@@ -52,10 +52,10 @@ pub struct Outputs {
 }
 
 /// Mass and balance with `fuel_kg` aboard and the masts tilted by `mast_tilt_rad` (mean of both).
-pub fn balance(params: &Params, fuel_kg: f64, mast_tilt_rad: f64) -> Outputs {
-    let lever = params.pivot_m - params.tilting_cg_m;
-    let x0 = params.tilting_mass_ratio * lever.x;
-    let z0 = params.tilting_mass_ratio * lever.z;
+pub fn evaluate(params: &Params, fuel_kg: f64, mast_tilt_rad: f64) -> Outputs {
+    let arm = params.pivot_m - params.tilting_cg_m;
+    let x0 = params.tilting_mass_ratio * arm.x;
+    let z0 = params.tilting_mass_ratio * arm.z;
     let (s, c) = (sin(mast_tilt_rad), cos(mast_tilt_rad));
     let aft_m = z0 * s + x0 * (1.0 - c);
     let up_m = z0 * (1.0 - c) - x0 * s;

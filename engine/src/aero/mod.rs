@@ -15,9 +15,9 @@ use crate::math::{FRAC_PI_2, PI, atan2, clamp, cos, sin, sqrt, square};
 /// Least dynamic length, so that a standing aircraft divides by something, m/s.
 const SPEED_MPS_MIN: f64 = 1e-3;
 
-/// Flow at a component: what its own motion and the rotors' wake make together.
+/// The local flow at a component: angles, dynamic pressure and speed of the air that meets it.
 #[derive(Clone, Copy, Debug)]
-pub struct Flow {
+pub struct LocalFlow {
     /// α, in the plane of symmetry, from below positive.
     pub alpha_rad: f64,
     /// β, from the right positive.
@@ -29,10 +29,10 @@ pub struct Flow {
 }
 
 /// The flow that meets a component moving with `velocity_mps` through the air.
-pub fn flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> Flow {
+pub fn local_flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> LocalFlow {
     let speed_mps = velocity_mps.norm();
     let in_plane_mps = sqrt(square(velocity_mps.x) + square(velocity_mps.z));
-    Flow {
+    LocalFlow {
         alpha_rad: atan2(velocity_mps.z, velocity_mps.x),
         beta_rad: atan2(velocity_mps.y, in_plane_mps + SPEED_MPS_MIN),
         pressure_pa: 0.5 * density_kg_per_m3 * square(speed_mps),

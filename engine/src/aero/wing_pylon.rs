@@ -30,7 +30,7 @@
 pub use super::half_wing::{Inputs, Params};
 use super::polar::Flap;
 use super::wake_footprint::{self, footprint};
-use super::{flow, in_body_axes, load_at};
+use super::{in_body_axes, load_at, local_flow};
 use crate::frames::{Body, Load, Vec3};
 use crate::math::{PI, atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
 
@@ -63,27 +63,27 @@ impl Outputs {
 }
 
 /// Loads of the right half.
-pub fn half_wing(params: &Params, inputs: &Inputs) -> Outputs {
+pub fn evaluate(params: &Params, inputs: &Inputs) -> Outputs {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
     let footprint = footprint(params, inputs);
-    let washed = Washed::at(inputs, arm);
+    let in_wake = InWake::at(inputs, arm);
     Outputs {
-        free_stream: free_stream(params, inputs, arm, footprint.area_m2, washed.pressure_pa),
+        free_stream: free_stream(params, inputs, arm, footprint.area_m2, in_wake.pressure_pa),
         immersed: immersed(params, inputs, &footprint),
-        pylon: pylon(params, inputs, washed),
+        pylon: pylon(params, inputs, in_wake),
         spinner: spinner(params, inputs),
     }
 }
 
 /// Flow in the plane of symmetry at the half wing in its wake.
 #[derive(Clone, Copy)]
-struct Washed {
+struct InWake {
     alpha_rad: f64,
     /// q_iw.
     pressure_pa: f64,
 }
 
-impl Washed {
+impl InWake {
     fn at(inputs: &Inputs, arm: Vec3<Body>) -> Self {
         let velocity = inputs.motion.velocity_at(arm) + inputs.wake_mps;
         Self {
@@ -100,7 +100,7 @@ fn free_stream(
     inputs: &Inputs,
     arm: Vec3<Body>,
     immersed_m2: f64,
-    washed_pa: f64,
+    pressure_in_wake_pa: f64,
 ) -> Load {
     let velocity = inputs.motion.airspeed_mps;
     let speed_mps = sqrt(square(velocity.x) + square(velocity.z));
@@ -122,7 +122,8 @@ fn free_stream(
     let force = in_body_axes(lift_n, q * free_m2 * cd, 0.0, inputs.alpha_rad);
     let pitching_n_m = q * half_m2 * params.chord_m * cm;
 
-    let beta = clamp(flow(velocity, rho).beta_rad, -SIDESLIP_RAD_MAX, SIDESLIP_RAD_MAX) * attached;
+    let beta =
+        clamp(local_flow(velocity, rho).beta_rad, -SIDESLIP_RAD_MAX, SIDESLIP_RAD_MAX) * attached;
     // q·p̂ and q·r̂, which stay finite at rest.
     let rate = 0.25 * rho * speed_mps * params.span_m * attached;
     let (roll, yaw) =
@@ -146,26 +147,30 @@ fn free_stream(
             + params.yawing_by_yaw_rate_and_drag
                 * params.drag_at_no_lift.at(tilt, inputs.flap_rad))
             * yaw
-        - washed_pa
+        - pressure_in_wake_pa
             * (params.yawing_by_flaperon_per_rad.at(tilt, inputs.flap_rad) * attached
                 + params.yawing_by_flaperon_and_lift.at(tilt, inputs.flap_rad) * cl * by_flaperon)
             * inputs.flaperon_rad;
-    let lever = half_m2 * params.span_m;
-    load_at(force, arm, pitching_n_m).with_moment(Vec3::new(rolling * lever, 0.0, yawing * lever))
+    let area_span_m3 = half_m2 * params.span_m;
+    load_at(force, arm, pitching_n_m).with_moment(Vec3::new(
+        rolling * area_span_m3,
+        0.0,
+        yawing * area_span_m3,
+    ))
 }
 
 fn immersed(params: &Params, inputs: &Inputs, part: &wake_footprint::Footprint) -> Load {
     if part.area_m2 <= 0.0 {
         return Load::default();
     }
-    let washed = Washed::at(inputs, part.centroid_from_cg_m);
+    let in_wake = InWake::at(inputs, part.centroid_from_cg_m);
     let velocity = inputs.motion.airspeed_mps;
     let deflection_rad = atan2(velocity.z, velocity.x) - inputs.alpha_rad;
-    let alpha = wrap_angle(washed.alpha_rad - deflection_rad);
+    let alpha = wrap_angle(in_wake.alpha_rad - deflection_rad);
     let flap = Flap::new(inputs.flap_rad);
     let cl = params.lift.lift_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
     let cd = params.drag.drag_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
-    let pressure_area = washed.pressure_pa * part.area_m2;
+    let pressure_area = in_wake.pressure_pa * part.area_m2;
     let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, alpha);
     let ahead_m = 0.25 * part.chord_m * cos(alpha);
     load_at(force, part.centroid_from_cg_m + Vec3::new(ahead_m, 0.0, 0.0), 0.0)
@@ -176,9 +181,9 @@ fn hub_velocity(inputs: &Inputs) -> Vec3<Body> {
     inputs.motion.velocity_at(inputs.hub_from_cg_m) + inputs.thrust_axis * inputs.induced_mps
 }
 
-fn pylon(params: &Params, inputs: &Inputs, washed: Washed) -> Load {
-    let drag_n = 0.5 * params.interference_m2.at(inputs.mast_tilt_rad) * washed.pressure_pa;
-    let interference = in_body_axes(0.0, drag_n, 0.0, washed.alpha_rad);
+fn pylon(params: &Params, inputs: &Inputs, in_wake: InWake) -> Load {
+    let drag_n = 0.5 * params.interference_m2.at(inputs.mast_tilt_rad) * in_wake.pressure_pa;
+    let interference = in_body_axes(0.0, drag_n, 0.0, in_wake.alpha_rad);
     let velocity = hub_velocity(inputs);
     let sideways_mps = inputs.motion.velocity_at(inputs.hub_from_cg_m).y;
     let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));

@@ -103,28 +103,33 @@ pub fn update(
     on: Axes,
     sensed: &Sensed,
 ) -> (State, Sticks) {
-    let washed = Sticks {
+    let washed_out = Sticks {
         aft_m: sticks.aft_m - state.mean_aft_m,
         right_m: sticks.right_m - state.mean_right_m,
         pedal_right_m: sticks.pedal_right_m - state.mean_pedal_right_m,
     };
-    let wash = STEP_S / params.washout_s;
+    let washout_step = STEP_S / params.washout_s;
     let follow = |works: bool, held_rad: f64, attitude_rad: f64, moved_m: f64| {
         let rests = works && moved_m.abs() < params.hold_stick_m && !sensed.weight_on_wheels;
         let step = if rests { 0.0 } else { min(1.0, STEP_S / params.hold_follow_s) };
         wrap_angle(held_rad + step * wrap_angle(attitude_rad - held_rad))
     };
     let next = State {
-        mean_aft_m: state.mean_aft_m + wash * washed.aft_m,
-        mean_right_m: state.mean_right_m + wash * washed.right_m,
-        mean_pedal_right_m: state.mean_pedal_right_m + wash * washed.pedal_right_m,
+        mean_aft_m: state.mean_aft_m + washout_step * washed_out.aft_m,
+        mean_right_m: state.mean_right_m + washout_step * washed_out.right_m,
+        mean_pedal_right_m: state.mean_pedal_right_m + washout_step * washed_out.pedal_right_m,
         held_pitch_rad: follow(
             on.pitch,
             state.held_pitch_rad,
             sensed.euler.pitch_rad,
-            washed.aft_m,
+            washed_out.aft_m,
         ),
-        held_roll_rad: follow(on.roll, state.held_roll_rad, sensed.euler.roll_rad, washed.right_m),
+        held_roll_rad: follow(
+            on.roll,
+            state.held_roll_rad,
+            sensed.euler.roll_rad,
+            washed_out.right_m,
+        ),
     };
 
     let scale = 1.0 / (1.0 + sensed.dynamic_pressure_pa / params.dynamic_pressure_pa);
@@ -150,9 +155,15 @@ pub fn update(
     let pitch_off = euler.pitch_rad - next.held_pitch_rad;
     let roll_off = euler.roll_rad - next.held_roll_rad;
     let added = Sticks {
-        aft_m: series(&params.pitch, on.pitch, rate.y, pitch_off, washed.aft_m),
-        right_m: series(&params.roll, on.roll, rate.x, roll_off, washed.right_m),
-        pedal_right_m: series(&params.yaw, on.yaw, rate.z - turn_radps, 0.0, washed.pedal_right_m),
+        aft_m: series(&params.pitch, on.pitch, rate.y, pitch_off, washed_out.aft_m),
+        right_m: series(&params.roll, on.roll, rate.x, roll_off, washed_out.right_m),
+        pedal_right_m: series(
+            &params.yaw,
+            on.yaw,
+            rate.z - turn_radps,
+            0.0,
+            washed_out.pedal_right_m,
+        ),
     };
     let augmented = Sticks {
         aft_m: sticks.aft_m + added.aft_m,
