@@ -6,7 +6,9 @@
 //! transcendental functions are the pinned ones of [`math`].
 //!
 //! Blocks are named as in the block diagram of the literature; [`mod@step`] wires them and is the
-//! only place that does.
+//! only place that does. A block that is sampled once a tick is asked by `update`, one that gives loads
+//! or rates by `evaluate`. No block knows another: what several of them read is in [`motion`],
+//! [`controls`], [`inertia`] and [`struts`].
 #![no_std]
 
 extern crate alloc;

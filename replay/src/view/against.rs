@@ -167,8 +167,8 @@ struct Row {
     apart: [[f32; 3]; 2],
 }
 
-/// A state and what it is looked at with.
-type Snapshot<'a> = (&'a Aircraft, &'a State, &'a World);
+/// A state in its world, and the aircraft.
+type InWorld<'a> = (&'a Aircraft, &'a State, &'a World);
 
 impl Page {
     fn new(mut canvas: Canvas) -> Result<Self, DrawError> {
@@ -204,7 +204,7 @@ impl Page {
         })
     }
 
-    fn add(&mut self, a: Snapshot, b: Option<Snapshot>) -> Result<(), DrawError> {
+    fn add(&mut self, a: InWorld, b: Option<InWorld>) -> Result<(), DrawError> {
         let tick = a.1.tick;
         if let Some(b) = b {
             self.look_for_difference(tick, a.1, b.1)?;
@@ -314,7 +314,7 @@ fn growth_entity(number: usize) -> String {
 }
 
 /// What can be observed of a state by itself.
-fn observed((aircraft, state, world): Snapshot) -> Outputs {
+fn observed((aircraft, state, world): InWorld) -> Outputs {
     engine::step::derivatives(aircraft, state, world).1
 }
 
