@@ -109,6 +109,11 @@ impl Layout {
         })
     }
 
+    /// The same numbers under other names.
+    pub(crate) fn renamed(&self, mut name: impl FnMut(&str) -> String) -> Self {
+        Self(self.0.iter().map(|number| Number { path: name(&number.path), ..*number }).collect())
+    }
+
     /// The bits of every number of a message, in order.
     ///
     /// # Errors
