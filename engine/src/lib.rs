@@ -22,8 +22,10 @@ pub mod eom;
 pub mod fcc;
 pub mod frames;
 pub mod inputs;
+pub mod isa;
 pub mod landing_gear;
 pub mod linearize;
+pub mod listing;
 pub mod math;
 pub mod modes;
 pub mod outputs;
@@ -36,6 +38,7 @@ pub mod step;
 pub mod symmetry;
 pub mod table;
 pub mod trim;
+pub mod units;
 pub mod weight_balance;
 
 pub use aircraft::Aircraft;

@@ -15,7 +15,7 @@ use crate::frames::{Body, Euler, Load, Ned, Rotation, Structural, Vec3};
 use crate::inputs::World;
 use crate::landing_gear::{Struts, Tread};
 use crate::math::{PI, TAU, atan2, max, min, sqrt, square};
-use crate::outputs::{EulerRate, Loads, Outputs, calibrated_airspeed, place, validity};
+use crate::outputs::{EulerRate, Loads, Outputs, Validity, calibrated_airspeed, place};
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
 use crate::symmetry::unmirrored;
@@ -368,28 +368,28 @@ impl Blocks {
         -next.plant.position_m.z - self.ground_height_m
     }
 
-    fn validity(&self, next: &State, height_m: f64) -> u64 {
-        let flag = |bit: u64, set: bool| if set { bit } else { 0 };
+    fn validity(&self, next: &State, height_m: f64) -> Validity {
+        let flag = |flag: Validity, set: bool| if set { flag } else { Validity::empty() };
         let airborne = next.plant.weight_on_wheels == 0;
         let legs = &self.gear.legs;
         let bottomed =
             [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
-        flag(validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
-            | flag(validity::FLAPPING_STOP, self.rotors.map(|rotor| rotor.on_stop).sum() > 0)
+        flag(Validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
+            | flag(Validity::FLAPPING_STOP, self.rotors.map(|rotor| rotor.on_stop).sum() > 0)
             | flag(
-                validity::VORTEX_RING,
+                Validity::VORTEX_RING,
                 airborne && self.rotors.map(|rotor| rotor.in_vortex_ring).sum() > 0,
             )
-            | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
-            | flag(validity::HEIGHT, height_m > 12e3)
-            | flag(validity::GEAR_BOTTOMED, bottomed)
-            | flag(validity::FROZEN, next.frozen != 0)
+            | flag(Validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
+            | flag(Validity::HEIGHT, height_m > 12e3)
+            | flag(Validity::GEAR_BOTTOMED, bottomed)
+            | flag(Validity::FROZEN, next.frozen != 0)
             | flag(
-                validity::ROTOR_SPEED,
+                Validity::ROTOR_SPEED,
                 !(ROTOR_RADPS_MIN..=ROTOR_RADPS_MAX).contains(&next.plant.rotor_speed_radps),
             )
-            | flag(validity::TUMBLING, next.plant.angular_rate_radps.norm() > TUMBLING_RADPS)
-            | flag(validity::HULL, self.height_above_ground_m(next) <= self.hull_height_m)
+            | flag(Validity::TUMBLING, next.plant.angular_rate_radps.norm() > TUMBLING_RADPS)
+            | flag(Validity::HULL, self.height_above_ground_m(next) <= self.hull_height_m)
     }
 }
 

@@ -3,7 +3,7 @@
 //! A mirrored flight is the mirrored state, to the bit. North–down is the mirror plane of the world.
 
 use crate::frames::Load;
-use crate::inputs::{World, failures};
+use crate::inputs::{Failures, World};
 use crate::landing_gear::{Struts, Tread};
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
@@ -126,14 +126,13 @@ impl Mirror for PlantRate {
 
 impl Mirror for World {
     fn mirrored(&self) -> Self {
-        let moved = |from: u64, to: u64| if self.failed(from) { to } else { 0 };
-        let engines = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
+        let mut failures = self.failures.difference(Failures::ENGINES);
+        failures.set(Failures::ENGINE_LEFT, self.failed(Failures::ENGINE_RIGHT));
+        failures.set(Failures::ENGINE_RIGHT, self.failed(Failures::ENGINE_LEFT));
         Self {
             wind_mps: self.wind_mps.mirrored(),
             gust_mps: self.gust_mps.mirrored(),
-            failures: (self.failures & !engines)
-                | moved(failures::ENGINE_LEFT, failures::ENGINE_RIGHT)
-                | moved(failures::ENGINE_RIGHT, failures::ENGINE_LEFT),
+            failures,
             ..*self
         }
     }

@@ -33,10 +33,10 @@ use super::polar::{Flap, Polar};
 use super::wake_footprint::{self, footprint};
 use super::{Motion, flow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
-use crate::math::{PI, atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
+use crate::math::{atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
 use crate::table::{Table1, Table2};
+use crate::units::DEGREE_RAD as DEG;
 
-const DEG: f64 = PI / 180.0;
 /// Flaperons work fully up to here …
 const ATTACHED_RAD: f64 = 8.0 * DEG;
 /// … and no longer from here on.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cockpit;
 use crate::frames::{Body, Euler, Vec3};
-use crate::inputs::World;
+use crate::inputs::{Failures, World};
 
 /// What the computer is set to.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -80,9 +80,9 @@ pub fn update(
         pedal_right_m: pilot.pedal_right_norm * params.travel.pedal_m,
     };
     let on = scas::Axes {
-        pitch: pilot.scas_on != 0 && !world.failed(crate::inputs::failures::SCAS_PITCH),
-        roll: pilot.scas_on != 0 && !world.failed(crate::inputs::failures::SCAS_ROLL),
-        yaw: pilot.scas_on != 0 && !world.failed(crate::inputs::failures::SCAS_YAW),
+        pitch: pilot.scas_on != 0 && !world.failed(Failures::SCAS_PITCH),
+        roll: pilot.scas_on != 0 && !world.failed(Failures::SCAS_ROLL),
+        yaw: pilot.scas_on != 0 && !world.failed(Failures::SCAS_YAW),
     };
     let (scas, augmented) = scas::update(&params.scas, &state.scas, &sticks, on, sensed);
     let lever_m = pilot.collective_norm * params.travel.collective_m;
@@ -94,7 +94,7 @@ pub fn update(
             rpm_select: pilot.rpm_select,
             rotor_speed_radps: sensed.rotor_speed_radps,
             mast_tilt_rad: sensed.mast_tilt_rad,
-            failed: world.failed(crate::inputs::failures::GOVERNOR),
+            failed: world.failed(Failures::GOVERNOR),
         },
     );
     let commands = mixer::mix(&params.mixer, &augmented, collective_rad, pilot, sensed);
