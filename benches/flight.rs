@@ -16,7 +16,7 @@ use engine::{Aircraft, Inputs, State, step};
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Setup};
 use recorder::pilots::Pilot;
-use recorder::writer::{Item, Recording};
+use recorder::writer::{Recording, ToRecord};
 use recorder::{Flight, Progress, fly};
 use replay::{Options, Window};
 
