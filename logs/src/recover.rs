@@ -145,11 +145,8 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
             copied = Some(writer.last_tick());
         }
     }
-    if copied == Some(recovery.tick) { Ok(()) } else { Err(changed()) }
-}
-
-fn changed() -> LogError {
-    LogError::Order("the file changed while it was being read".into())
+    let changed = || LogError::Order("the file changed while it was being read".into());
+    (copied == Some(recovery.tick)).then_some(()).ok_or_else(changed)
 }
 
 /// The name of the file; for one that was recovered before, the names of all of them.

@@ -127,13 +127,9 @@ impl Reflight {
     /// is not in it.
     pub fn open(path: &Path, options: &ReflyOptions) -> Result<Self, ReplayError> {
         let across = options.across_versions;
-        let open = if across {
-            // A compacted log is flown while it is read, by this version's model or not at all.
-            OpenOptions { aircraft_of: None, across_versions: true }
-        } else {
-            OPEN
-        };
-        let mut reader = logs::open(path, open)?;
+        // A compacted log is flown while it is read, by this version's model or not at all.
+        let aircraft_of = OPEN.aircraft_of.filter(|_| !across);
+        let mut reader = logs::open(path, OpenOptions { aircraft_of, across_versions: across })?;
         let mut notes = Vec::new();
         let aircraft = match read(&reader.setup) {
             Ok(flown) => flown.aircraft,
@@ -207,13 +203,10 @@ fn aircraft_across(
     setup: &Setup,
     notes: &mut Vec<String>,
 ) -> Result<Aircraft, aircraft::ConfigError> {
-    let aircraft = match aircraft::aircraft("aircraft.toml", &setup.aircraft_toml) {
-        Ok(aircraft) => aircraft,
-        Err(error) => {
-            notes.push(format!("flown with this version's XV-15: the log's {error}"));
-            aircraft::aircraft("xv15.toml", aircraft::XV15)?
-        }
-    };
+    let aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml).or_else(|error| {
+        notes.push(format!("flown with this version's XV-15: the log's {error}"));
+        aircraft::aircraft("xv15.toml", aircraft::XV15)
+    })?;
     Ok(aircraft.with_cockpit(aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?))
 }
 

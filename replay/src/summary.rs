@@ -7,7 +7,6 @@ use std::path::Path;
 use engine::math::{max, sqrt, square};
 use engine::units::{DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RPM_PER_RADPS};
 use engine::{Outputs, STEP_S, State};
-use logs::FlightReader;
 use logs::view::Remark;
 
 use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
@@ -136,8 +135,7 @@ pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
         exact &= reflown.exact && reflown.recorded.chained;
         flight.reader.timings.clear();
     }
-    let FlightReader { remarks, .. } = &mut flight.reader;
-    let remarks = std::mem::take(remarks);
+    let remarks = std::mem::take(&mut flight.reader.remarks);
     let digest = flight.reader.digest();
     Ok(Summary { first_tick, last: flight.state, remarks, gathered, digest, exact })
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use mcap::{WriteOptions, Writer};
 
-use super::files::{attach, cannot_be_used, define};
+use super::files::{attach, define};
 use super::flier::AircraftOf;
 use super::{Copied, Expander};
 use crate::LogError;
@@ -32,7 +32,7 @@ pub fn expand(
     let mut from = Expander::new(LogFile::open(log)?.with_fingerprint(), aircraft_of, false);
     let mut writer: Option<Copy> = None;
     let mut record = Record::default();
-    while from.next(&mut record).map_err(cannot_be_used)? {
+    while from.next(&mut record)? {
         if let Record::Header { profile, library } = &record {
             writer = Some(Copy::create(out, force, profile, library)?);
         } else if let Some(writer) = &mut writer {

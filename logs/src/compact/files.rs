@@ -165,11 +165,3 @@ pub fn refuse_other_form(head: &Metadata) -> Result<(), LogError> {
 pub fn broken(what: &str) -> LogError {
     LogError::Decode(format!("a compacted log that does not hold together: {what}"))
 }
-
-/// How a file ends, where a whole one is needed.
-pub fn cannot_be_used(error: LogError) -> LogError {
-    match error {
-        LogError::Damaged(why) if why == crate::container::NOT_MCAP => LogError::NotAFlight(why),
-        error => error,
-    }
-}

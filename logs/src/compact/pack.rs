@@ -10,7 +10,7 @@ use mcap::{Compression, WriteOptions, Writer};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
-use super::files::{attach, cannot_be_used, define, encode, facts, setup_of};
+use super::files::{attach, define, encode, facts, setup_of};
 use super::flier::{AircraftOf, Flier};
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, Compacted};
@@ -40,8 +40,7 @@ pub fn compact(
     let mut packing: Option<Pack> = None;
     let mut tail: Vec<Metadata> = Vec::new();
     let mut record = Record::default();
-    let nothing = || LogError::NotAFlight("no message in it".into());
-    while from.next(&mut record).map_err(cannot_be_used)? {
+    while from.next(&mut record)? {
         if let (Record::Message(..), None) = (&record, &packing) {
             packing = Some(Pack::begin(&head, out, force, keyframe_ticks, aircraft_of)?);
         }
@@ -65,11 +64,9 @@ pub fn compact(
             definition => pack.define(definition)?,
         }
     }
-    let mut pack = packing.ok_or_else(nothing)?;
+    let mut pack = packing.ok_or_else(|| LogError::NotAFlight("no message in it".into()))?;
     pack.close_last()?;
-    for record in &tail {
-        pack.to.write_metadata(record)?;
-    }
+    tail.iter().try_for_each(|record| pack.to.write_metadata(record))?;
     let original = from.fingerprint().cloned().unwrap_or_default();
     let last = [
         ("messages", format!("{:016x}", pack.hash.digest())),
@@ -135,9 +132,7 @@ impl Pack {
             .disable_seeking(true)
             .create(BufWriter::new(create(out, force)?))?;
         to.write_metadata(&facts(HEAD, [("version", VERSION.to_string())]))?;
-        for record in metadata {
-            to.write_metadata(record)?;
-        }
+        metadata.clone().try_for_each(|record| to.write_metadata(record))?;
         let schema = b"uint8[] data\n";
         to.add_schema_with_id(ID, "tiltrotor/msg/CompactBlock", "ros2msg", schema)?;
         to.add_channel_with_id(ID, ID, TOPIC, "cdr", &BTreeMap::new())?;

@@ -19,11 +19,12 @@ use crate::writer::stamped;
 use crate::{LogError, cdr};
 
 /// A compacted log being read.
+#[derive(Default)]
 pub(crate) struct Expander {
     file: LogFile,
     /// The record of the file that was read last.
     record: Record,
-    aircraft_of: AircraftOf,
+    aircraft_of: Option<AircraftOf>,
     /// Whether a log of another version of the flight model is to be read. Its states cannot be flown
     /// again: between keyframes, the last keyframe stands in for them, with the right tick and digest.
     across: bool,
@@ -51,8 +52,8 @@ pub(crate) struct Expander {
     hash: Xxh3Default,
     tail: Option<Tail>,
     states: u64,
-    /// Whether the last state is as it was recorded, not flown again.
-    recorded: bool,
+    /// Whether the last state was flown again: it is not as it was recorded.
+    reflown: bool,
 }
 
 type Message = (MessageHeader, Vec<u8>);
@@ -97,29 +98,7 @@ impl Expander {
 
     /// Reads a compacted log from its beginning.
     pub fn new(file: LogFile, aircraft_of: AircraftOf, across: bool) -> Self {
-        Self {
-            file,
-            record: Record::default(),
-            aircraft_of,
-            across,
-            blind: false,
-            flier: None,
-            keyframe: Vec::new(),
-            tick: 0,
-            ready: VecDeque::new(),
-            ids: BTreeMap::new(),
-            topics: BTreeMap::new(),
-            schemas: BTreeSet::new(),
-            plain: VecDeque::new(),
-            block: None,
-            skip_block: false,
-            sought: false,
-            begun: false,
-            hash: Xxh3Default::new(),
-            tail: None,
-            states: 0,
-            recorded: true,
-        }
+        Self { file, aircraft_of: Some(aircraft_of), across, ..Self::default() }
     }
 
     /// States so far.
@@ -210,8 +189,8 @@ impl Expander {
     fn unpack_files(&mut self, bytes: &[u8]) -> Result<(), LogError> {
         let head = decode(bytes)?;
         let setup = setup_of(&head)?;
-        if !self.blind {
-            match (self.aircraft_of)(&setup) {
+        if let Some(aircraft_of) = self.aircraft_of.filter(|_| !self.blind) {
+            match aircraft_of(&setup) {
                 Ok(flown) => self.flier = Some(Flier::new(flown)),
                 // An aircraft file of another time: its keyframes can still be read.
                 Err(_) if self.across => self.blind = true,
@@ -267,7 +246,7 @@ impl Expander {
         if Some(&header.channel_id) == self.ids.get(STATE) {
             self.stand_at(&data)?;
             self.states += 1;
-            self.recorded = true;
+            self.reflown = false;
         }
         *record = Record::Message(header, data);
         Ok(())
@@ -293,7 +272,7 @@ impl Expander {
         at.digest += 1;
         self.states += 1;
         self.tick = self.tick.wrapping_add(1);
-        self.recorded = false;
+        self.reflown = true;
         if let Some(flier) = &mut self.flier {
             flier.fly();
             self.tick = flier.state.tick;
@@ -319,7 +298,7 @@ impl Expander {
         }
         self.states += 1;
         self.tick = tick_of(&data)?;
-        self.recorded = true;
+        self.reflown = false;
         self.keyframe.clone_from(&data);
         *record = Record::Message(header, data);
         Ok(())
@@ -396,7 +375,7 @@ impl RecordSource for Expander {
     fn compacted(&self) -> Option<Compacted<'_>> {
         let flown = self.flier.as_ref().and_then(|flier| flier.flown.as_ref());
         let flown = flown.map(|(state, outputs)| (state, outputs));
-        Some(Compacted { recorded: self.recorded, flown })
+        Some(Compacted { recorded: !self.reflown, flown })
     }
 }
 

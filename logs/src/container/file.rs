@@ -18,9 +18,6 @@ use crate::setup::{self, COMPACT_HEAD, METADATA, Setup};
 /// Bytes asked for at a time.
 const BUFFER_BYTES: usize = 256 * 1024;
 
-/// What is said of a file that is something else.
-pub(crate) const NOT_MCAP: &str = "not an MCAP file";
-
 /// The parts of a file, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
@@ -53,6 +50,12 @@ pub(crate) struct LogFile {
     ready: VecDeque<Record>,
     /// Those of them that are still to be met in their place.
     ahead: Vec<Record>,
+}
+
+impl Default for LogFile {
+    fn default() -> Self {
+        Self::over(std::io::empty())
+    }
 }
 
 impl LogFile {
@@ -177,7 +180,7 @@ impl LogFile {
             LogError::Mcap(McapError::BadMagic | McapError::UnexpectedEof)
                 if self.part == Part::Start =>
             {
-                LogError::Damaged(NOT_MCAP.into())
+                LogError::NotAFlight("not an MCAP file".into())
             }
             LogError::Mcap(McapError::UnexpectedEof) if self.tail != mcap::MAGIC => {
                 LogError::Truncated

@@ -6,7 +6,7 @@ mod file;
 mod index;
 mod record;
 
-pub(crate) use file::{LogFile, NOT_MCAP};
+pub(crate) use file::LogFile;
 pub(crate) use index::Index;
 pub(crate) use record::{RECORD_BYTES_MAX, Record, Schema};
 
@@ -20,8 +20,9 @@ pub(crate) trait RecordSource: Send {
     /// file.
     ///
     /// # Errors
-    /// [`LogError::Truncated`] and [`LogError::Damaged`] say how the file ends; any other error is of
-    /// a file that is not for this program.
+    /// [`LogError::Truncated`] and [`LogError::Damaged`] say how the file ends,
+    /// [`LogError::NotAFlight`] that it is something else; any other error is of a file that is not for
+    /// this program.
     fn next(&mut self, record: &mut Record) -> Result<bool, LogError>;
 
     /// Goes where the state of a tick is not far ahead, if the file's index says where.

@@ -123,9 +123,7 @@ impl FlightReader {
                 };
                 reader.setup.put(name, std::mem::take(data))?;
                 found.push(name);
-            } else if reader.take_metadata(true) {
-                continue;
-            } else if reader.take_first(&found)? {
+            } else if !reader.take_metadata(true) && reader.take_first(&found)? {
                 reader.unbroken = reader.intact;
                 return Ok(reader);
             }

@@ -114,14 +114,13 @@ impl Stream {
     fn stop(&mut self, error: LogError) {
         self.ending = match error {
             LogError::Truncated => Ending::Truncated,
-            LogError::Damaged(why) => Ending::Damaged(why),
-            error => {
+            LogError::Damaged(why) | LogError::NotAFlight(why) => Ending::Damaged(why),
+            error => Ending::Damaged({
                 let why = error.to_string();
-                if matches!(error, LogError::Version { .. } | LogError::Setup(_)) {
-                    self.refused = Some(error);
-                }
-                Ending::Damaged(why)
-            }
+                let refused = matches!(error, LogError::Version { .. } | LogError::Setup(_));
+                self.refused = Some(error).filter(|_| refused);
+                why
+            }),
         };
     }
 
