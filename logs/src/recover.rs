@@ -7,8 +7,8 @@ use std::path::Path;
 
 use crate::LogError;
 use crate::channels::{Chain, Channel};
-use crate::open::{OpenOptions, open};
-use crate::reader::{Ending, FlightReader, Messages};
+use crate::open::OpenOptions;
+use crate::reader::{Ending, FlightReader, Messages, open};
 use crate::records::{STATE, time_ns};
 use crate::setup::Identity;
 use crate::writer::FlightWriter;
