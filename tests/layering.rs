@@ -34,7 +34,7 @@ const KEPT: &[(&str, &str)] = &[
 ];
 
 /// All that the engine may know of the world.
-const ENGINE_KNOWS: &[&str] = &["libm", "nalgebra", "serde"];
+const ENGINE_KNOWS: &[&str] = &["bitflags", "libm", "nalgebra", "serde"];
 
 /// The packages of every workspace in the tree by name, with their manifests; the command, the root
 /// package, is not among them.

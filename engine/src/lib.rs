@@ -26,8 +26,10 @@ pub mod fcc;
 pub mod frames;
 pub mod inertia;
 pub mod inputs;
+pub mod isa;
 pub mod landing_gear;
 pub mod linearize;
+pub mod listing;
 pub mod math;
 pub mod modes;
 pub mod motion;
@@ -42,6 +44,7 @@ pub mod struts;
 pub mod symmetry;
 pub mod table;
 pub mod trim;
+pub mod units;
 pub mod weight_balance;
 
 pub use aircraft::Aircraft;

@@ -5,7 +5,7 @@ use std::path::Path;
 use engine::inputs::World;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 use logs::records::{EventRecord, Happening};
-use logs::view::{Level, Remark};
+use logs::view::Remark;
 use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Setup, Tick};
 
 use crate::refly::{ReplayError, read};
@@ -163,7 +163,7 @@ fn crew_said(
     for (event, remark) in happenings.iter().zip(&remarks) {
         if let Some(what @ (Happening::Phase | Happening::Landed)) = Happening::from_u64(event.kind)
         {
-            writer.happened(event.tick, what, event.value, Level::Info, &remark.words)?;
+            writer.happened(event.tick, what, event.value, &remark.words)?;
         }
     }
     Ok(())

@@ -15,7 +15,7 @@
 //!       gear                            moves up and down
 //!     thrust_{left,right}   force of each rotor
 //! /map                      the track in latitude and longitude
-//! /plots, /modes, /events   see `plots` and `layout`
+//! /plots, /modes, /validity, /events      see `plots` and `layout`
 //! ```
 //! Two flights in one recording ([`draw_against`]) are `/recorded/…` and `/reflown/…` with all of the above,
 //! and between them

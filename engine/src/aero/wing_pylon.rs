@@ -32,9 +32,9 @@ use super::polar::Flap;
 use super::wake_footprint::{self, footprint};
 use super::{in_body_axes, load_at, local_flow};
 use crate::frames::{Body, Load, Vec3};
-use crate::math::{PI, atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
+use crate::math::{atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
+use crate::units::DEGREE_RAD as DEG;
 
-const DEG: f64 = PI / 180.0;
 /// Flaperons work fully up to here …
 const ATTACHED_RAD: f64 = 8.0 * DEG;
 /// … and no longer from here on.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::sensed::Sensed;
 use crate::controls::{Commands, PilotControls};
-use crate::inputs::{World, failures};
+use crate::inputs::{Failures, World};
 
 /// What the computer is set to.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -62,9 +62,9 @@ pub fn update(
         pedal_right_m: pilot.pedal_right_norm * params.travel.pedal_m,
     };
     let on = scas::Axes {
-        pitch: pilot.scas_on != 0 && !world.failed(failures::SCAS_PITCH),
-        roll: pilot.scas_on != 0 && !world.failed(failures::SCAS_ROLL),
-        yaw: pilot.scas_on != 0 && !world.failed(failures::SCAS_YAW),
+        pitch: pilot.scas_on != 0 && !world.failed(Failures::SCAS_PITCH),
+        roll: pilot.scas_on != 0 && !world.failed(Failures::SCAS_ROLL),
+        yaw: pilot.scas_on != 0 && !world.failed(Failures::SCAS_YAW),
     };
     let (scas, augmented) = scas::update(&params.scas, &state.scas, &sticks, on, sensed);
     let lever_m = pilot.collective_norm * params.travel.collective_m;
@@ -76,7 +76,7 @@ pub fn update(
             rpm_select: pilot.rpm_select,
             rotor_speed_radps: sensed.rotor_speed_radps,
             mast_tilt_rad: sensed.mast_tilt_rad,
-            failed: world.failed(failures::GOVERNOR),
+            failed: world.failed(Failures::GOVERNOR),
         },
     );
     let commands = mixer::mix(&params.mixer, &augmented, collective_rad, pilot, sensed);
