@@ -88,7 +88,7 @@ mod with_rerun {
         let mut flight =
             Reflight::open(log, &options).with_context(|| log.display().to_string())?;
         let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
-        let mut view = FlightView::new(saved, &title)?;
+        let mut view = FlightView::new(saved, &title, &flight.aircraft)?;
         while let Some(reflown) = flight.next_tick()? {
             view.push(reflown.outputs);
             flight.reader.timings.clear();

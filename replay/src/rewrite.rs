@@ -86,7 +86,7 @@ pub fn rewrite(
         new.setup,
         new.identity,
         aircraft,
-        &reader.robot_description,
+        &aircraft::urdf(aircraft),
         initial,
         new.force,
     )?;
