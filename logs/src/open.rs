@@ -25,8 +25,6 @@ pub(crate) fn source(path: &Path, options: OpenOptions) -> Result<Box<dyn Record
     match (Expander::is_compacted(path)?, options.aircraft_of) {
         (false, _) => Ok(Box::new(file)),
         (true, None) => Err(LogError::Compacted),
-        (true, Some(aircraft_of)) => {
-            Ok(Box::new(Expander::new(file, aircraft_of, options.across_versions)))
-        }
+        (true, Some(of)) => Ok(Box::new(Expander::new(file, of, options.across_versions))),
     }
 }
