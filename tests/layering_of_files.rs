@@ -28,6 +28,7 @@ const KNOWN_CIRCLES: &[(&str, &[&str])] = &[
             "writer",
         ],
     ),
+    ("logs", &["the crate's root", "cdr", "records", "setup", "view"]),
     ("logs", &["export", "export::csv", "export::flights", "export::parquet"]),
     ("recorder", &["pilots", "pilots::phase"]),
     ("replay", &["divergence", "growth"]),
@@ -68,11 +69,14 @@ const SHARED: &[&str] = &[
     "frames",
     "inertia",
     "inputs",
+    "isa",
+    "listing",
     "math",
     "motion",
     "pair",
     "struts",
     "table",
+    "units",
 ];
 
 /// What a block is asked by: a sampled one by `update`, one that gives loads or rates by `evaluate`.
