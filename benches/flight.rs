@@ -18,7 +18,7 @@ use logs::{FlightWriter, Identity, Setup};
 use recorder::pilots::Pilot;
 use recorder::writer::{Recording, ToRecord};
 use recorder::{Flight, Progress, fly};
-use replay::{Options, Window};
+use replay::{Options, ReflyOptions, Window};
 
 fn main() {
     divan::main();
@@ -52,7 +52,8 @@ fn setup() -> Setup {
 /// A flight by the hover pilot, as fast as it goes.
 fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
     let (aircraft, start) = ready();
-    let pilot = Pilot::named("hover", &aircraft.cockpit).expect("it exists");
+    let pilot =
+        Pilot::named("hover", &aircraft.cockpit, &aircraft.envelope.corridor).expect("it exists");
     let initial = start.state(&aircraft).expect("on its wheels");
     let out = scratch(name);
     let flight = Flight {
@@ -180,8 +181,9 @@ fn start_in_the_ninth_minute(bencher: Bencher, form: &str) {
     let (whole, compact) = ten_minutes();
     let log = if form == "whole" { whole } else { compact };
     let window = Window { from_tick: Some(135_123), until_tick: None, clamped: false };
+    let options = ReflyOptions { window, across_versions: false };
     bencher.bench_local(|| {
-        let mut flight = replay::Reflight::within(log, &window).expect("a log");
+        let mut flight = replay::Reflight::open(log, &options).expect("a log");
         assert!(flight.next_tick().expect("a tick").expect("a tick").exact);
     });
 }

@@ -41,7 +41,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let log = &args.log;
     let name = || log.display().to_string();
-    let mut reader = replay::open(log).with_context(name)?;
+    let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
     let mut setup = reader.setup.clone();
     let mut changes = Vec::new();
     if let Some(path) = &args.aircraft {

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use common::{OK, folder, text, tiltrotor, verify};
 use engine::inputs::{EventKind, Failures, World};
 use logs::records::Happening;
-use logs::{FlightReader, Tick};
+use logs::{FlightReader, OpenOptions, Tick};
 
 const SCRIPT: &str = r#"
 [[event]]
@@ -68,10 +68,10 @@ fn flight() -> &'static Path {
 }
 
 fn ticks() -> (Vec<Tick>, FlightReader) {
-    let mut reader = FlightReader::open(flight()).expect("a log");
+    let mut reader = logs::open(flight(), OpenOptions::default()).expect("a log");
     let mut ticks = Vec::new();
     while let Some(tick) = reader.next_tick().expect("a tick") {
-        ticks.push(tick);
+        ticks.push(tick.clone());
     }
     (ticks, reader)
 }

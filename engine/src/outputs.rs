@@ -46,9 +46,9 @@ flags! {
         ROTOR_STALL = 0 { key: "rotor_stall", words: "rotor stall", severity: Severity::Caution }
         /// A rotor descends into its own wake.
         VORTEX_RING = 1 { key: "vortex_ring", words: "vortex ring", severity: Severity::Warning }
-        /// Beyond the speeds of the data, 180 m/s.
+        /// Beyond the speeds of the data, as the aircraft's envelope has them.
         SPEED = 2 { key: "speed", words: "speed", severity: Severity::Caution }
-        /// Beyond the heights of the data, 12 km.
+        /// Beyond the heights of the data.
         HEIGHT = 3 { key: "height", words: "height", severity: Severity::Caution }
         /// A strut is past its stroke.
         GEAR_BOTTOMED = 4 {
@@ -62,10 +62,9 @@ flags! {
         FLAPPING_STOP = 7 {
             key: "flapping_stop", words: "flapping stop", severity: Severity::Caution
         }
-        /// The rotors turn slower than 0.7 of the helicopter's speed, or faster than their limit of
-        /// 661 rpm.
+        /// The rotors turn slower or faster than the data are for.
         ROTOR_SPEED = 8 { key: "rotor_speed", words: "rotor speed", severity: Severity::Caution }
-        /// It turns faster than 3 rad/s: tables of steady flow know nothing of that.
+        /// It turns faster than any flight: tables of steady flow know nothing of that.
         TUMBLING = 9 { key: "tumbling", words: "tumbling", severity: Severity::Warning }
     }
 }

@@ -338,7 +338,7 @@ impl Crew {
 
 #[cfg(test)]
 mod tests {
-    use logs::FlightReader;
+    use logs::OpenOptions;
     use logs::records::Happening;
 
     use super::*;
@@ -375,7 +375,7 @@ mod tests {
     }
 
     fn self_checks(log: &std::path::Path) -> Vec<(u64, u64, String)> {
-        let mut reader = FlightReader::open(log).unwrap();
+        let mut reader = logs::open(log, OpenOptions::default()).unwrap();
         while reader.next_tick().unwrap().is_some() {}
         let words = reader.remarks.iter().filter(|remark| remark.words.contains("self-check"));
         let mut words = words.map(|remark| remark.words.clone());

@@ -2,13 +2,13 @@
 //! differently from the one they learned on.
 
 use engine::aircraft::Params;
+use engine::envelope::Corridor;
 use engine::inputs::Failures;
 use engine::math::{max, min};
 use engine::outputs::Validity;
 use engine::start::Start;
 use engine::units::{DEGREE_RAD as DEG, KNOT_MPS, RPM_RADPS as RPM};
 use engine::{Aircraft, Outputs, State};
-use recorder::pilots::corridor;
 use recorder::pilots::{PILOTS, Pilot};
 use recorder::{Flight, Hands, Progress, Reach, RehearsedTick, fly, rehearse};
 
@@ -61,7 +61,8 @@ fn aloft(nacelle_deg: f64, speed_kt: f64) -> Start {
 }
 
 fn pilot(name: &str, aircraft: &Aircraft) -> Vec<Box<dyn Hands>> {
-    vec![Box::new(Pilot::named(name, &aircraft.cockpit).expect(name))]
+    let corridor = &aircraft.envelope.corridor;
+    vec![Box::new(Pilot::named(name, &aircraft.cockpit, corridor).expect(name))]
 }
 
 /// What is remembered of a flight.
@@ -91,12 +92,14 @@ impl Story {
         let mut story =
             Self { corridor_mps: f64::INFINITY, rotor_radps_low: f64::INFINITY, ..Self::default() };
         let ticks = seconds * TICKS_PER_S;
-        let flown = rehearse(aircraft, start, pilot(name, aircraft), ticks, |now| story.see(now));
+        let flown = rehearse(aircraft, start, pilot(name, aircraft), ticks, |now| {
+            story.see(&aircraft.envelope.corridor, now);
+        });
         story.end = flown.unwrap_or_else(|failure| panic!("{failure}")).1;
         story
     }
 
-    fn see(&mut self, now: &RehearsedTick<'_>) {
+    fn see(&mut self, corridor: &Corridor, now: &RehearsedTick<'_>) {
         let (state, seen) = (now.state, now.outputs);
         if self.phases.last() != Some(&now.phase) {
             self.phases.push(now.phase);
@@ -118,7 +121,7 @@ impl Story {
             self.turned_left_rad -= seen.euler_rate.heading_radps * engine::STEP_S;
         }
         if wheels == 0 {
-            let inside_mps = corridor::margin_mps(tilt_rad, seen.calibrated_airspeed_mps);
+            let inside_mps = corridor.margin_mps(tilt_rad, seen.calibrated_airspeed_mps);
             self.corridor_mps = min(self.corridor_mps, inside_mps);
             self.rotor_radps_low = min(self.rotor_radps_low, seen.rotor_speed_radps);
         }
@@ -293,6 +296,37 @@ fn a_conversion_from_80_kt_keeps_inside_the_corridor_and_the_height() {
     assert!(story.corridor_mps > 0.0, "{} m/s inside the corridor", story.corridor_mps);
     let height_m = story.end.height_above_ground_m;
     assert!((height_m - 140.0).abs() < 20.0, "{height_m} m, wanted some 140 m");
+}
+
+/// Airspeed at which the nacelles of a conversion from 80 kt first pass 20 degrees, and how far the flight
+/// kept inside its corridor, m/s.
+fn converted(aircraft: &Aircraft) -> (f64, f64) {
+    let (mut airspeed_mps, mut inside_mps) = (None, f64::INFINITY);
+    let corridor = &aircraft.envelope.corridor;
+    let hands = pilot("convert", aircraft);
+    rehearse(aircraft, &aloft(90.0, 80.0), hands, 30 * TICKS_PER_S, |now| {
+        let (seen, tilt_rad) = (now.outputs, now.outputs.actuators.mast_tilt_rad.mean());
+        inside_mps = min(inside_mps, corridor.margin_mps(tilt_rad, seen.calibrated_airspeed_mps));
+        if tilt_rad > 20.0 * DEG {
+            airspeed_mps.get_or_insert(seen.calibrated_airspeed_mps);
+        }
+    })
+    .expect("a flight");
+    (airspeed_mps.expect("nacelles that come down"), inside_mps)
+}
+
+/// The lower limit twenty knots faster, where that leaves a corridor.
+#[test]
+fn a_pilot_keeps_to_the_corridor_of_the_aircrafts_file() {
+    let was = "value = [0.0, 0.0, 64.0, 64.0, 80.0, 90.0, 102.0, 115.0, 123.0, 129.0]";
+    let faster = "value = [0.0, 0.0, 74.0, 80.0, 100.0, 110.0, 122.0, 128.0, 129.0, 130.0]";
+    assert_eq!(aircraft::XV15.matches(was).count(), 1);
+    let text = aircraft::XV15.replace(was, faster);
+    let narrow = aircraft::aircraft("narrow.toml", &text).expect("a corridor");
+    let (wide_mps, _) = converted(&xv15());
+    let (narrow_mps, inside_mps) = converted(&narrow.with_cockpit(xv15().cockpit.clone()));
+    assert!(narrow_mps > wide_mps + 10.0 * KNOT_MPS, "{narrow_mps} m/s beside {wide_mps} m/s");
+    assert!(inside_mps > 0.0, "{inside_mps} m/s inside the corridor");
 }
 
 #[test]

@@ -7,10 +7,9 @@ use std::path::Path;
 use engine::math::{max, sqrt, square};
 use engine::units::{DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RPM_PER_RADPS};
 use engine::{Outputs, STEP_S, State};
-use logs::FlightReader;
 use logs::view::Remark;
 
-use crate::refly::{Reflight, ReplayError, Window};
+use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
 
 /// Names of the extremes, their units, and how they are read off.
 type Reading = (&'static str, &'static str, fn(&Outputs) -> f64);
@@ -126,17 +125,17 @@ pub struct Summary {
 /// # Errors
 /// When it cannot be reflown.
 pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
-    let mut flight = Reflight::within(log, window)?;
+    let options = ReflyOptions { window: *window, across_versions: false };
+    let mut flight = Reflight::open(log, &options)?;
     let mut gathered = Gathered::from(&flight.state);
     let mut exact = true;
     let first_tick = flight.state.tick;
     while let Some(reflown) = flight.next_tick()? {
-        gathered.add(&flight.state, &reflown.outputs);
+        gathered.add(reflown.state, reflown.outputs);
         exact &= reflown.exact && reflown.recorded.chained;
         flight.reader.timings.clear();
     }
-    let FlightReader { remarks, .. } = &mut flight.reader;
-    let remarks = std::mem::take(remarks);
+    let remarks = std::mem::take(&mut flight.reader.remarks);
     let digest = flight.reader.digest();
     Ok(Summary { first_tick, last: flight.state, remarks, gathered, digest, exact })
 }

@@ -6,17 +6,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use engine::inputs::DeviceEvent;
-use engine::{Outputs, State};
+use engine::State;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::channels::{CHANNELS, COUNT, Channel, ChannelId};
 use crate::layout::{Layout, Number};
-use crate::records::{
-    EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
-    TimingRecord,
-};
-use crate::{LogError, cdr, schema};
+use crate::records::StateRecord;
+use crate::{LogError, cdr};
 
 /// Parts of the state that were called something else: as a log may name them, and as they are called today.
 const RENAMED: &[(&str, &str)] = &[("plant.treads.", "plant.tyre_deflections.")];
@@ -39,6 +36,8 @@ pub struct Mapping {
     /// For each of today's numbers, where it stands in the log's messages.
     sources: Vec<Option<usize>>,
     same: bool,
+    /// What the two layouts do not have in common.
+    pub difference: Difference,
 }
 
 impl Mapping {
@@ -56,8 +55,16 @@ impl Mapping {
             let place = places.get(number.path.as_str()).copied()?;
             (theirs.numbers()[place].kind == number.kind).then_some(place)
         };
-        let sources = ours.numbers().iter().map(source).collect();
-        Ok(Self { same: ours == theirs, theirs, sources })
+        let sources: Vec<_> = ours.numbers().iter().map(source).collect();
+        let path = |number: &Number| number.path.clone();
+        let missing = ours.numbers().iter().zip(&sources).filter(|(_, source)| source.is_none());
+        let used: BTreeSet<_> = sources.iter().flatten().collect();
+        let ignored = theirs.numbers().iter().enumerate().filter(|(i, _)| !used.contains(i));
+        let difference = Difference {
+            missing: missing.map(|(number, _)| path(number)).collect(),
+            ignored: ignored.map(|(_, number)| path(number)).collect(),
+        };
+        Ok(Self { same: ours == theirs, theirs, sources, difference })
     }
 
     /// Whether the log's layout is today's.
@@ -92,23 +99,6 @@ impl Mapping {
     fn word(&self, message: &[u8], place: usize) -> Option<u64> {
         cdr::word(message, self.sources.get(place).copied().flatten()?)
     }
-
-    /// What the two layouts do not have in common.
-    ///
-    /// # Errors
-    /// When `T` is not recordable.
-    pub fn difference<T: Serialize + Default>(&self) -> Result<Difference, LogError> {
-        let ours = Layout::of::<T>()?;
-        let path = |number: &Number| number.path.clone();
-        let missing =
-            ours.numbers().iter().zip(&self.sources).filter(|(_, source)| source.is_none());
-        let used: BTreeSet<_> = self.sources.iter().flatten().collect();
-        let ignored = self.theirs.numbers().iter().enumerate().filter(|(i, _)| !used.contains(i));
-        Ok(Difference {
-            missing: missing.map(|(number, _)| path(number)).collect(),
-            ignored: ignored.map(|(_, number)| path(number)).collect(),
-        })
-    }
 }
 
 /// What a channel of a log and today's struct do not have in common. A field whose type has changed is
@@ -121,55 +111,37 @@ pub struct Difference {
     pub ignored: Vec<String>,
 }
 
-/// The channels of a log that are read into structs, each with its mapping once a message came.
+/// The channels of a log whose layout is not today's, each with its mapping once a message came.
 #[derive(Debug, Default)]
-pub(crate) struct Mappings {
-    hardware: Option<Mapping>,
-    inputs: Option<Mapping>,
-    state: Option<Mapping>,
-    bare_state: Option<Mapping>,
-    outputs: Option<Mapping>,
-    timing: Option<Mapping>,
-    events: Option<Mapping>,
-}
+pub(crate) struct Mappings([Option<Mapping>; COUNT]);
 
 impl Mappings {
-    /// A message of a channel as today's struct; what the log lacks is 0.
+    /// A message of a channel as today's struct; what the log lacks is 0. Without a layout it is taken
+    /// for today's: the length will tell.
     pub fn decode<T>(
         &mut self,
-        topic: &str,
+        channel: &Channel,
         layout: Option<&Layout>,
         message: &[u8],
     ) -> Result<T, LogError>
     where
         T: Serialize + DeserializeOwned + Default,
     {
-        let (slot, needed): (_, &[&str]) = match topic {
-            HARDWARE => (&mut self.hardware, &["tick", "device", "kind", "code", "value"]),
-            INPUTS => (&mut self.inputs, &["tick", "events"]),
-            STATE => (&mut self.state, &["digest", "state.tick"]),
-            OUTPUTS => (&mut self.outputs, &[]),
-            TIMING => (&mut self.timing, &[]),
-            EVENTS => (&mut self.events, &[]),
-            _ => return cdr::decode(message),
-        };
-        // Without a schema it is taken for today's: the length will tell.
-        let Some(layout) = layout.filter(|layout| !is_todays(layout)) else {
-            return cdr::decode(message);
-        };
+        let Some(layout) = layout else { return cdr::decode(message) };
+        let slot = &mut self.0[channel.id as usize];
         let mapping = match slot {
             Some(mapping) => mapping,
             None => {
                 let mapping = Mapping::to::<T>(layout)?;
-                let lacking = mapping.difference::<T>()?.missing;
-                if let Some(name) = needed.iter().find(|name| lacking.iter().any(|l| l == *name)) {
+                let lacking = &mapping.difference.missing;
+                let topic = channel.topic;
+                if let Some(name) =
+                    channel.needed.iter().find(|name| lacking.iter().any(|l| l == *name))
+                {
                     return Err(LogError::Decode(format!("{topic} has no `{name}`")));
                 }
-                if topic == STATE {
-                    let bare = layout.of_state().ok_or_else(|| {
-                        LogError::Decode(format!("{topic} is not a digest and a state"))
-                    })?;
-                    self.bare_state = Some(Mapping::to::<State>(&bare)?);
+                if channel.id == ChannelId::State && !layout.is_of_state() {
+                    return Err(LogError::Decode(format!("{topic} is not a digest and a state")));
                 }
                 slot.insert(mapping)
             }
@@ -177,10 +149,14 @@ impl Mappings {
         mapping.decode(message, &T::default())
     }
 
+    fn of_state(&self) -> Option<&Mapping> {
+        self.0[ChannelId::State as usize].as_ref()
+    }
+
     /// The state of a `/state` message, with what the log lacks from `otherwise`.
     pub fn state_over(&self, message: &[u8], otherwise: &State) -> Result<State, LogError> {
         let record = StateRecord { digest: 0, state: *otherwise };
-        match &self.state {
+        match self.of_state() {
             Some(mapping) => Ok(mapping.decode(message, &record)?.state),
             None => Ok(cdr::decode::<StateRecord>(message)?.state),
         }
@@ -188,7 +164,7 @@ impl Mappings {
 
     /// The tick of a `/state` message, without a look at the rest.
     pub fn tick_of(&self, message: &[u8]) -> Option<u64> {
-        match &self.state {
+        match self.of_state() {
             Some(mapping) => mapping.word(message, StateRecord::TICK),
             None => cdr::word(message, StateRecord::TICK),
         }
@@ -196,44 +172,31 @@ impl Mappings {
 
     /// Whether the log's states have today's layout.
     pub fn same_state(&self) -> bool {
-        self.state.as_ref().is_none_or(Mapping::is_same)
+        self.of_state().is_none_or(Mapping::is_same)
     }
 
-    /// Where the log's layout is not today's.
-    pub fn differences(&self) -> Result<Vec<(&'static str, Difference)>, LogError> {
-        fn of<T: Serialize + Default>(
-            topic: &'static str,
-            mapping: Option<&Mapping>,
-        ) -> Result<Option<(&'static str, Difference)>, LogError> {
-            let Some(mapping) = mapping.filter(|mapping| !mapping.is_same()) else {
-                return Ok(None);
-            };
-            Ok(Some((topic, mapping.difference::<T>()?)))
-        }
-        let all = [
-            of::<DeviceEvent>(HARDWARE, self.hardware.as_ref())?,
-            of::<InputsRecord>(INPUTS, self.inputs.as_ref())?,
-            of::<State>(STATE, self.bare_state.as_ref())?,
-            of::<Outputs>(OUTPUTS, self.outputs.as_ref())?,
-            of::<TimingRecord>(TIMING, self.timing.as_ref())?,
-            of::<EventRecord>(EVENTS, self.events.as_ref())?,
-        ];
-        Ok(all.into_iter().flatten().collect())
+    /// Where the log's layout is not today's; fields of the state are called as in a bare state.
+    pub fn differences(&self) -> Vec<(&'static str, Difference)> {
+        let bare = |paths: &[String]| {
+            let bare = |path: &String| path.strip_prefix("state.").unwrap_or(path).to_string();
+            paths.iter().map(bare).collect()
+        };
+        let mapped = CHANNELS.iter().zip(&self.0);
+        mapped
+            .filter_map(|(channel, mapping)| {
+                let Difference { missing, ignored } =
+                    &mapping.as_ref().filter(|mapping| !mapping.is_same())?.difference;
+                let told = Difference { missing: bare(missing), ignored: bare(ignored) };
+                Some((channel.topic, told))
+            })
+            .collect()
     }
-}
-
-/// Whether it is the very layout that the reader gives to channels whose definition is today's.
-fn is_todays(layout: &Layout) -> bool {
-    let kinds = schema::kinds().unwrap_or_default();
-    kinds
-        .iter()
-        .filter_map(|kind| kind.layout.as_deref())
-        .any(|todays| std::ptr::eq(todays, layout))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use engine::inputs::DeviceEvent;
 
     #[test]
     fn a_log_that_calls_a_part_of_the_state_by_its_old_name_has_todays_layout() {
@@ -245,7 +208,6 @@ mod tests {
             });
             assert!(renamed > 0, "{new}: no part of the state");
             assert!(Mapping::to::<StateRecord>(&theirs).unwrap().is_same(), "{old}");
-            assert!(Mapping::to::<State>(&theirs.of_state().unwrap()).unwrap().is_same(), "{old}");
         }
     }
 
@@ -261,7 +223,7 @@ mod tests {
         let otherwise = DeviceEvent { kind: 9, value: -4, ..DeviceEvent::default() };
         let event = mapping.decode(&message, &otherwise).unwrap();
         assert_eq!(event, DeviceEvent { tick: 77, device: 2, code: 30, ..otherwise });
-        let difference = mapping.difference::<DeviceEvent>().unwrap();
+        let difference = &mapping.difference;
         assert_eq!(difference.missing, ["kernel_time_ns", "kind", "value"]);
         assert_eq!(difference.ignored, ["force_n", "value"]);
         assert!(mapping.decode(&message[..20], &otherwise).is_err());

@@ -101,21 +101,17 @@ impl Layout {
         &self.0
     }
 
+    /// Whether it is one of a `/state` message: the digest, then the state.
+    pub(crate) fn is_of_state(&self) -> bool {
+        self.0.split_first().is_some_and(|(digest, state)| {
+            let is_digest = digest.path == "digest" && digest.kind == Kind::U64;
+            is_digest && state.iter().all(|number| number.path.starts_with("state."))
+        })
+    }
+
     /// The same numbers under other names.
     pub(crate) fn renamed(&self, mut name: impl FnMut(&str) -> String) -> Self {
         Self(self.0.iter().map(|number| Number { path: name(&number.path), ..*number }).collect())
-    }
-
-    /// The layout without its first number, which is the digest, and without the name of what follows
-    /// it: of a bare state. `None` when it is not one of a `/state` message.
-    pub(crate) fn of_state(&self) -> Option<Self> {
-        let (digest, rest) = self.0.split_first()?;
-        let bare = |number: &Number| {
-            let path = number.path.strip_prefix("state.")?.to_string();
-            Some(Number { path, ..*number })
-        };
-        let is_digest = digest.path == "digest" && digest.kind == Kind::U64;
-        is_digest.then(|| rest.iter().map(bare).collect::<Option<_>>().map(Self))?
     }
 
     /// The bits of every number of a message, in order.
@@ -126,10 +122,7 @@ impl Layout {
         &self,
         message: &'a [u8],
     ) -> Result<impl ExactSizeIterator<Item = u64> + use<'a>, LogError> {
-        let body = message
-            .strip_prefix(&cdr::HEADER)
-            .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
-        let (words, rest) = body.as_chunks::<8>();
+        let (words, rest) = cdr::body_of(message)?.as_chunks::<8>();
         if words.len() != self.0.len() || !rest.is_empty() {
             return Err(LogError::Decode(format!(
                 "expected {} bytes by its schema, got {}",
@@ -198,15 +191,16 @@ fn expand(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::ros2msg;
+    use crate::schema::Types;
     use engine::State;
 
     #[test]
     fn the_layout_of_a_schema_is_that_of_the_struct_it_was_made_from() {
-        let parsed = Layout::parse(&ros2msg::<State>().unwrap()).unwrap();
-        assert_eq!(parsed, Layout::of::<State>().unwrap());
-        let outputs = Layout::parse(&ros2msg::<engine::Outputs>().unwrap()).unwrap();
-        assert_eq!(outputs, Layout::of::<engine::Outputs>().unwrap());
+        let mut types = Types::default();
+        for described in [types.describe::<State>(), types.describe::<engine::Outputs>()] {
+            let described = described.unwrap();
+            assert_eq!(Layout::parse(&described.text).as_ref(), described.layout.as_deref());
+        }
     }
 
     #[test]

@@ -46,9 +46,7 @@ pub fn append<T: Serialize>(bytes: &mut Vec<u8>, value: &T) -> Result<(), LogErr
 /// # Errors
 /// When the bytes are too few, too many, or not little-endian CDR.
 pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, LogError> {
-    let body = bytes
-        .strip_prefix(&HEADER)
-        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
+    let body = body_of(bytes)?;
     let (value, used) = bincode::serde::decode_from_slice(body, FIXED)
         .map_err(|_| LogError::Decode(format!("too short, with {} bytes", bytes.len())))?;
     if used == body.len() {
@@ -69,11 +67,35 @@ pub(crate) fn word(message: &[u8], place: usize) -> Option<u64> {
 /// # Errors
 /// When it holds something CDR has no form for.
 pub fn encode_view<T: Serialize>(value: &T) -> Result<Vec<u8>, LogError> {
-    let mut bytes = HEADER.to_vec();
+    let mut bytes = Vec::new();
+    append_view(&mut bytes, value)?;
+    Ok(bytes)
+}
+
+/// Appends a view message.
+///
+/// # Errors
+/// As for [`encode_view`].
+pub fn append_view<T: Serialize>(bytes: &mut Vec<u8>, value: &T) -> Result<(), LogError> {
+    bytes.extend_from_slice(&HEADER);
     let body = cdr_encoding::to_vec::<T, byteorder::LittleEndian>(value)
         .map_err(|error| LogError::Encode(error.to_string()))?;
     bytes.extend_from_slice(&body);
-    Ok(bytes)
+    Ok(())
+}
+
+/// A view message read back, from its beginning.
+pub(crate) fn decode_view<T: DeserializeOwned>(bytes: &[u8], what: &str) -> Result<T, LogError> {
+    cdr_encoding::from_bytes::<T, byteorder::LittleEndian>(body_of(bytes)?)
+        .map(|(value, _)| value)
+        .map_err(|_| LogError::Decode(format!("not {what}")))
+}
+
+/// A message without its header.
+pub(crate) fn body_of(bytes: &[u8]) -> Result<&[u8], LogError> {
+    bytes
+        .strip_prefix(&HEADER)
+        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))
 }
 
 #[cfg(test)]

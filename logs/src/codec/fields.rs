@@ -185,6 +185,14 @@ macro_rules! refuse {
     };
 }
 
+macro_rules! refuse_parts {
+    ($($method:ident($($argument:ident: $kind:ty),*) -> $parts:ident $what:literal;)+) => {
+        $(fn $method(self, $(_: $kind),*) -> Result<Self::$parts, NotRecordable> {
+            Err(NotRecordable($what.into()))
+        })+
+    };
+}
+
 impl ser::Serializer for Walker {
     type Ok = Node;
     type Error = NotRecordable;
@@ -248,36 +256,14 @@ impl ser::Serializer for Walker {
     ) -> Result<Node, NotRecordable> {
         Err(NotRecordable("an enum".into()))
     }
-    fn serialize_seq(self, _: Option<usize>) -> Result<Self::SerializeSeq, NotRecordable> {
-        Err(NotRecordable("a list of any length".into()))
-    }
-    fn serialize_tuple_struct(
-        self,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Self::SerializeTupleStruct, NotRecordable> {
-        Err(NotRecordable("a tuple struct".into()))
-    }
-    fn serialize_tuple_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Self::SerializeTupleVariant, NotRecordable> {
-        Err(NotRecordable("an enum".into()))
-    }
-    fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, NotRecordable> {
-        Err(NotRecordable("a map".into()))
-    }
-    fn serialize_struct_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Self::SerializeStructVariant, NotRecordable> {
-        Err(NotRecordable("an enum".into()))
+    refuse_parts! {
+        serialize_seq(size: Option<usize>) -> SerializeSeq "a list of any length";
+        serialize_tuple_struct(name: &'static str, size: usize) -> SerializeTupleStruct "a tuple struct";
+        serialize_tuple_variant(name: &'static str, index: u32, variant: &'static str, size: usize)
+            -> SerializeTupleVariant "an enum";
+        serialize_map(size: Option<usize>) -> SerializeMap "a map";
+        serialize_struct_variant(name: &'static str, index: u32, variant: &'static str, size: usize)
+            -> SerializeStructVariant "an enum";
     }
 }
 
