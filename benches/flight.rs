@@ -54,7 +54,7 @@ fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
     let (aircraft, start) = ready();
     let pilot =
         Pilot::named("hover", &aircraft.cockpit, &aircraft.envelope.corridor).expect("it exists");
-    let initial = start.state(&aircraft).expect("on its wheels");
+    let initial = start.on_wheels(&aircraft);
     let out = scratch(name);
     let flight = Flight {
         aircraft,
@@ -80,7 +80,7 @@ fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
 #[divan::bench]
 fn one_tick(bencher: Bencher) {
     let (aircraft, start) = ready();
-    let mut state = start.state(&aircraft).expect("on its wheels");
+    let mut state = start.on_wheels(&aircraft);
     state.cockpit.collective_norm = 0.75;
     let inputs = Inputs { events: &[], world: World::default() };
     for _ in 0..2_000 {
@@ -94,7 +94,7 @@ fn one_tick(bencher: Bencher) {
 #[divan::bench(sample_size = 10)]
 fn hand_over_of_a_tick(bencher: Bencher) {
     let (aircraft, start) = ready();
-    let state = start.state(&aircraft).expect("on its wheels");
+    let state = start.on_wheels(&aircraft);
     let out = scratch("hand-over");
     let identity = Identity::new();
     let writer = FlightWriter::create(&out, &setup(), &identity, &aircraft, "", &state, true)

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use analysis::trim::{Power, Target};
 use anyhow::{Context, Result, bail};
 use engine::math::min;
-use engine::trim::{Power, Target};
 use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_RADPS};
 use engine::{Aircraft, GRAVITY_MPS2};
 

@@ -15,7 +15,7 @@ pub const UNUSABLE: u8 = 2;
 pub const NEVER_CLOSED: u8 = 3;
 /// The flight went on, but its log ends early.
 pub const LOG_CUT_SHORT: u8 = 4;
-/// There is no such steady flight.
+/// There is no such steady flight, or what was asked of it has not converged.
 pub const NO_TRIM: u8 = 5;
 /// A log of another version, flown for comparison.
 pub const COMPARED: u8 = 6;

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use analysis::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
 use anyhow::{Context, Result};
-use engine::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
 use engine::units::{DEG_PER_RAD as DEG, FOOT_M, HOUR_S, INCH_M, KNOT_MPS, POUND_KG, POUND_N};
 
 use crate::condition::{Condition, sweep};

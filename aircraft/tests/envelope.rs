@@ -91,7 +91,7 @@ fn the_models_limits_are_to_the_bit_those_that_logs_were_flown_with() {
 /// What a step says of a helicopter that flies at 30 m/s in 300 m, turning a little.
 fn validity_of(aircraft: &Aircraft) -> Validity {
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
-    let mut state: State = start.state(aircraft).unwrap();
+    let mut state: State = start.on_wheels(aircraft);
     state.plant.position_m.z -= 300.0;
     state.plant.velocity_mps.x = 30.0;
     state.plant.angular_rate_radps.z = 0.5;

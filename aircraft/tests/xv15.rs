@@ -149,7 +149,7 @@ fn val_hover_power_at_design_weight_is_that_of_the_flight_test() {
 
 fn started(xv15: &Aircraft) -> State {
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
-    start.state(xv15).unwrap()
+    start.on_wheels(xv15)
 }
 
 /// Rotors at flat pitch on idle power carry a little of the weight, either way.

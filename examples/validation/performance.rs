@@ -1,8 +1,8 @@
 //! Fuel, speed, stall, conversion, autorotation.
 
+use analysis::trim::{GROUND_FAR_BELOW_M, Power, Target, Trim, trim};
 use engine::Aircraft;
 use engine::inputs::{Failures, World};
-use engine::trim::{GROUND_FAR_BELOW_M, Power, Target, Trim, trim};
 
 use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, RPM_RADPS};
 use crate::trims::{at, stick_in, why};

@@ -166,7 +166,7 @@ pub enum FlyError {
     Log(#[from] LogError),
     /// There is no steady flight to begin in.
     #[error("the flight cannot begin in the air")]
-    Trim(#[from] engine::trim::Failure),
+    Trim(#[from] analysis::trim::Failure),
 }
 
 /// Flies until the hands are done, the time is up, or `progress.stop` is set.
@@ -175,7 +175,7 @@ pub enum FlyError {
 /// When the log cannot be begun, or the flight. What goes wrong later is in the [`Landing`].
 pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError> {
     let aircraft = flight.aircraft;
-    let mut state = flight.start.state(&aircraft)?;
+    let mut state = analysis::start::state_at(&flight.start, &aircraft)?;
     let world = flight.start.world.world();
     let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
     let writer = FlightWriter::create(

@@ -81,7 +81,8 @@ pub fn bless(
     }
     let initial = if reader.initial.tick == 0 {
         let aircraft = read(&setup)?.aircraft;
-        aircraft::start("scenario.toml", &setup.scenario_toml)?.state(&aircraft)?
+        let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
+        analysis::start::state_at(&start, &aircraft)?
     } else {
         reader.initial
     };

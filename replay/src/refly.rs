@@ -19,7 +19,7 @@ pub enum ReplayError {
     Setup(#[from] aircraft::ConfigError),
     /// The flight that it was can no longer be begun.
     #[error("the flight cannot begin as its scenario says: {0}")]
-    Start(#[from] engine::trim::Failure),
+    Start(#[from] analysis::trim::Failure),
     /// Something that must not be blessed, or made a test of.
     #[error("{0}")]
     Refused(String),
@@ -219,5 +219,5 @@ fn first_state(
     if reader.has_todays_state() {
         return Ok(reader.initial);
     }
-    Ok(reader.initial_over(&start.state(aircraft).unwrap_or_default())?)
+    Ok(reader.initial_over(&analysis::start::state_at(start, aircraft).unwrap_or_default())?)
 }

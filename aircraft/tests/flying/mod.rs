@@ -26,7 +26,7 @@ pub fn parked(xv15: &Aircraft) -> State {
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO);
     let start = start.unwrap_or_else(|e| panic!("{e}"));
     // The mirror plane of the world is north and down.
-    engine::start::Start { heading_rad: 0.0, ..start }.state(xv15).expect("on its wheels")
+    engine::start::Start { heading_rad: 0.0, ..start }.on_wheels(xv15)
 }
 
 /// Aloft, level and heading north at `speed_mps` with the nacelles at `mast_tilt_rad`; not trimmed.

@@ -1,35 +1,19 @@
 //! Newton's method with a line search, and the steady state it ends in.
 
 use alloc::boxed::Box;
-use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::problem::{COLLECTIVE, OUTER, Problem, Trial};
+use engine::frames::{Ned, Vec3};
+use engine::math::{cos, max, sin, sqrt, square};
+use engine::{STEP_S, State, step};
+
+use super::found::{Failure, Trim};
+use super::problem::{Outer, Problem, Trial, Unknown};
 use super::report::{Report, beyond};
-use super::{Failure, Power, Trim};
-use crate::dense::Matrix;
-use crate::frames::{Ned, Vec3};
-use crate::math::{cos, max, sin, sqrt, square};
-use crate::state::State;
-use crate::{STEP_S, step};
-
-/// No trial moves further at a time: rad, stick travel, rad, rated power, m/s.
-const STEP_MAX: [f64; OUTER] = [0.1, 0.4, 0.1, 0.3, 5.0, 0.15, 0.4, 0.4];
-
-/// What must vanish, beside the inner states' rates.
-const EQUATIONS: [&str; OUTER] = [
-    "acceleration forward",
-    "acceleration down",
-    "pitch acceleration",
-    "rotor acceleration",
-    "engine power",
-    "acceleration to the right",
-    "roll acceleration",
-    "yaw acceleration",
-];
-
-/// Weighed against each other, for the line search: an m/s² counts like this many of the others.
-const WEIGHTS: [f64; OUTER] = [1.0, 1.0, 3.0, 1.0, 1.0, 1.0, 3.0, 3.0];
+use super::residual::Residual;
+use super::target::Power;
+use crate::Matrix;
+use crate::solve::solve;
 
 /// Inner states are fast: their rates are large where their effect is small.
 const INNER_WEIGHT: f64 = 0.02;
@@ -40,43 +24,48 @@ const STEADY: f64 = 1e-8;
 /// A trial is this good at the latest after so many iterations, or never.
 const ITERATIONS: usize = 60;
 
-/// Ticks for which the inner states settle before the first iteration.
 impl Problem<'_> {
     fn merit(&self, residual: &[f64]) -> f64 {
-        let outer = self.equations.iter().zip(residual).map(|(&i, r)| WEIGHTS[i] * r);
+        let outer = self.equations.iter().zip(residual).map(|(equation, r)| equation.weight() * r);
         let inner = residual[self.equations.len()..].iter().map(|r| INNER_WEIGHT * r);
         let merit = sqrt(outer.chain(inner).map(square).sum());
         if merit.is_finite() { merit } else { f64::MAX }
     }
 
-    /// The largest of them, and its equation. Inner rates count by their weight.
-    fn worst(&self, residual: &[f64]) -> (f64, String) {
-        let mut worst = (0.0, String::new());
+    /// The largest of them, and what it is of. Inner rates count by their weight.
+    fn worst(&self, residual: &[f64]) -> (f64, Option<Residual>) {
+        let mut worst = (0.0, None);
         for (i, r) in residual.iter().enumerate() {
-            let (size, name) = match self.equations.get(i) {
-                Some(&equation) => (r.abs(), EQUATIONS[equation]),
+            let (size, of) = match self.equations.get(i) {
+                Some(&equation) => (r.abs(), Residual::Equation(equation)),
                 None => {
                     let inner = self.inner[i - self.equations.len()];
-                    (INNER_WEIGHT * r.abs(), self.names[inner].as_str())
+                    (INNER_WEIGHT * r.abs(), Residual::Inner(inner))
                 }
             };
             // What is not a number is worse than any.
             if size > worst.0 || size.is_nan() {
-                worst = (size, name.into());
+                worst = (size, Some(of));
             }
         }
         worst
     }
 
-    /// Places of the unknown among the values of a trial.
-    fn unknown(&self) -> Vec<usize> {
-        self.outer.iter().copied().chain(OUTER..OUTER + self.inner.len()).collect()
+    /// Every unknown, in the order of the Jacobian's columns.
+    fn unknown(&self) -> Vec<Unknown> {
+        let outer = self.outer.iter().map(|&outer| Unknown::Outer(outer));
+        outer.chain((0..self.inner.len()).map(Unknown::Inner)).collect()
     }
 
-    fn jacobian(&self, trial: &Trial, unknown: &[usize]) -> Matrix {
+    /// Change of every residual (rows) with every unknown (columns), by central differences.
+    fn jacobian(&self, trial: &Trial, unknown: &[Unknown]) -> Matrix {
         let mut jacobian = Matrix::zeros(unknown.len(), unknown.len());
         for (column, &i) in unknown.iter().enumerate() {
-            let step = 1e-6 * max(1.0, if i >= OUTER { trial[i].abs() } else { 1.0 });
+            let size = match i {
+                Unknown::Outer(_) => 1.0,
+                Unknown::Inner(_) => max(1.0, trial[i].abs()),
+            };
+            let step = 1e-6 * size;
             let mut moved = trial.clone();
             moved[i] = trial[i] + step;
             let above = self.residual(&moved);
@@ -98,9 +87,12 @@ impl Problem<'_> {
                 break;
             }
             let wanted: Vec<f64> = residual.iter().map(|r| -r).collect();
-            let mut change = self.jacobian(&trial, &unknown).solve(&wanted);
+            let mut change = solve(&self.jacobian(&trial, &unknown), &wanted);
             let over = unknown.iter().zip(&change).fold(1.0, |over, (&i, change)| {
-                let most = if i < OUTER { STEP_MAX[i] } else { max(0.3 * trial[i].abs(), 5.0) };
+                let most = match i {
+                    Unknown::Outer(outer) => outer.step_max(),
+                    Unknown::Inner(_) => max(0.3 * trial[i].abs(), 5.0),
+                };
                 max(over, change.abs() / most)
             });
             change.iter_mut().for_each(|change| *change /= over);
@@ -127,12 +119,11 @@ impl Problem<'_> {
             } else {
                 // A fold or a kink: let the inner states find their way and try again from there.
                 stuck += 1;
-                let mut outer = [0.0; OUTER];
-                outer.copy_from_slice(&trial[..OUTER]);
-                for (&i, change) in self.outer.iter().zip(&change) {
-                    outer[i] += 0.3 * change;
+                // The inner states go on from where they are: they find their way, and are not moved.
+                for (&outer, change) in self.outer.iter().zip(&change) {
+                    trial[outer] += 0.3 * change;
                 }
-                trial = self.settled(&outer, self.state(&outer, Some(&trial[OUTER..])));
+                trial = self.settled(trial);
                 residual = self.residual(&trial);
             }
         }
@@ -146,22 +137,22 @@ impl Problem<'_> {
     /// The state of a trial that is steady, with lever and governor where they belong.
     fn finish(&self, trial: &Trial, residual: f64) -> Result<Trim, Failure> {
         let (aircraft, world) = (self.aircraft, &self.target.world);
-        let mut state = self.state(trial, Some(&trial[OUTER..]));
+        let mut state = self.state(trial);
         let lever_norm = match self.target.power {
             Power::Lever(lever_norm) => lever_norm,
             Power::Climb(_) => self.lever(&state),
         };
         state.cockpit.collective_norm = lever_norm;
-        self.set_controls(&mut state, trial[COLLECTIVE]);
+        self.set_controls(&mut state, trial[Outer::Collective]);
         let (next, outputs) = step::derivatives(aircraft, &state, world);
         state.rate = next.rate;
         state.rate.motion.acceleration_mps2 =
             a_tick_before(next.rate.motion.acceleration_mps2, self.target.turn_radps);
         let state = state.without_negative_zeros();
         let report = Report::new(aircraft, &state, &outputs, residual);
+        let beyond = beyond(aircraft, self.torque_n_m_max, &state, &outputs, &report);
         let trim = Trim { state, outputs, report };
-        let power_w_per_s = next.rate.engines.power_w_per_s;
-        match beyond(aircraft, self.torque_n_m_max, &trim, power_w_per_s) {
+        match beyond {
             Some((what, wanted_norm)) => {
                 Err(Failure::Beyond { what, wanted_norm, trim: Box::new(trim) })
             }

@@ -1,10 +1,8 @@
 //! A trim by its numbers, and what of it the aircraft cannot do.
 
-use super::Trim;
-use crate::math::max;
-use crate::pair::Pair;
-use crate::state::State;
-use crate::{Aircraft, Outputs, engines};
+use engine::math::max;
+use engine::pair::Pair;
+use engine::{Aircraft, Outputs, State, engines};
 
 /// A trim by its numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -92,11 +90,12 @@ impl Report {
 pub(super) fn beyond(
     aircraft: &Aircraft,
     torque_n_m_max: f64,
-    trim: &Trim,
-    power_w_per_s: Pair<f64>,
+    state: &State,
+    outputs: &Outputs,
+    report: &Report,
 ) -> Option<(&'static str, f64)> {
-    let (state, report) = (&trim.state, &trim.report);
     let pilot = &state.cockpit;
+    let power_w_per_s = state.rate.engines.power_w_per_s;
     let engine_w = max(state.plant.engines.left.power_w, state.plant.engines.right.power_w);
     let lag_w = max(-power_w_per_s.left, -power_w_per_s.right) * aircraft.engines.lag_s;
     if lag_w > 1e-3 * aircraft.engines.rated_power_w {
@@ -128,5 +127,5 @@ pub(super) fn beyond(
             report.collective_rad / if report.collective_rad < low { low } else { high },
         ));
     }
-    (trim.outputs.landing_gear.main.right.push_n > 0.0).then_some(("height over the ground", 1.0))
+    (outputs.landing_gear.main.right.push_n > 0.0).then_some(("height over the ground", 1.0))
 }
