@@ -7,7 +7,7 @@ use std::sync::mpsc;
 
 use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
-use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, step};
+use engine::{Aircraft, Inputs, Outputs, STEP_NS, observe, step};
 use flightgear::Link;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{Closed, FlightWriter, Identity, LogError, Setup};
@@ -195,7 +195,7 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
         flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
     let refused = if flight.real_time { claim_real_time() } else { Vec::new() };
 
-    let mut outputs = crew.first_look(&aircraft, &state);
+    let mut outputs = observe(&aircraft, &state, &world);
     recording.show(&outputs, state.plant.attitude);
     let mut statistics = Statistics::new();
     let mut events: Vec<DeviceEvent> = Vec::with_capacity(EVENTS_A_TICK);
@@ -304,12 +304,6 @@ impl Crew {
     /// Hands that have touched nothing yet.
     pub(crate) fn new(hands: Vec<Box<dyn Hands>>, world: World) -> Self {
         Self { hands, world, phase: (0, ""), done: false }
-    }
-
-    /// What the hands see before the first tick: the aircraft as it is.
-    pub(crate) fn first_look(&self, aircraft: &Aircraft, state: &State) -> Outputs {
-        let inputs = Inputs { events: &[], world: World { paused: 1, ..self.world } };
-        Outputs { tick: state.tick, ..step(aircraft, state, &inputs).1 }
     }
 
     /// Lets every hand act; returns the phase if it changed.

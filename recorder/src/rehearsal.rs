@@ -3,7 +3,7 @@
 
 use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
-use engine::{Aircraft, Inputs, Outputs, State, step, trim};
+use engine::{Aircraft, Inputs, Outputs, State, observe, step, trim};
 
 use crate::flight::Crew;
 use crate::hands::Hands;
@@ -36,7 +36,7 @@ pub fn rehearse(
 ) -> Result<(State, Outputs), trim::Failure> {
     let mut state = start.state(aircraft)?;
     let mut crew = Crew::new(hands, start.world.world());
-    let mut outputs = crew.first_look(aircraft, &state);
+    let mut outputs = observe(aircraft, &state, &crew.world);
     let mut events = Vec::new();
     while !crew.done && state.tick < ticks_max {
         events.clear();
