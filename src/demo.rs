@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     #[cfg(feature = "rerun")]
     {
         let bytes = crate::view::save(out, &saved, &replay::Window::default())?;
-        say!("{}: {:.1} MB, for `rerun {0}`", saved.display(), bytes as f64 * 1e-6);
+        say!("{}: {}, for `rerun {0}`", saved.display(), logs::text::size(bytes));
     }
     Ok(ExitCode::from(status))
 }

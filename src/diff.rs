@@ -8,6 +8,7 @@ use engine::STEP_S;
 use engine::inputs::{DeviceEvent, EventKind};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Ending;
+use logs::text::at;
 use logs::units::with_unit;
 use replay::{Diff, Extent, FileDifference, KeyDifference, Side, Stage, Which, diff};
 use serde_json::{Value, json};
@@ -73,10 +74,6 @@ fn status(diff: &Diff) -> u8 {
     }
 }
 
-fn when(tick: u64) -> String {
-    format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S)
-}
-
 fn tell(args: &Args, diff: &Diff) {
     let most = if args.all { usize::MAX } else { LINES };
     for (name, path, side) in [("A", &args.a, &diff.a), ("B", &args.b, &diff.b)] {
@@ -97,7 +94,7 @@ fn tell(args: &Args, diff: &Diff) {
     match diff.compared {
         None => say!("they have no tick in common"),
         Some((from, to)) => {
-            say!("compared: {} ticks, from {} to {}", diff.ticks, when(from), when(to));
+            say!("compared: {} ticks, from {} to {}", diff.ticks, at(from), at(to));
         }
     }
     tell_inputs(diff, most);
@@ -119,7 +116,7 @@ fn told(side: &Side) -> String {
         (None, Ending::Truncated) => "never closed".into(),
         (None, Ending::Damaged(why)) => format!("damaged: {why}"),
     };
-    let (from, to) = (when(side.start_tick), when(side.last_tick));
+    let (from, to) = (at(side.start_tick), at(side.last_tick));
     format!("from {from} to {to}, digest {:016x}, {end}", side.digest)
 }
 
@@ -140,7 +137,7 @@ fn tell_inputs(diff: &Diff, most: usize) {
         say!(
             "device events: not the same in {} ticks, first for {}",
             diff.events.ticks,
-            when(first.tick)
+            at(first.tick)
         );
         say!("  A         {}", event(first.a.as_ref()));
         say!("  B         {}", event(first.b.as_ref()));
@@ -173,7 +170,7 @@ fn tell_states(diff: &Diff, most: usize) {
         say!("states: the same to the bit");
         return;
     };
-    say!("states: {} fields differ, first at {}", diff.state.len(), when(first.tick));
+    say!("states: {} fields differ, first at {}", diff.state.len(), at(first.tick));
     if diff.parts_at_start() {
         say!("  stage     none: they begin with it");
     } else {
@@ -207,8 +204,8 @@ fn tell_extent(extent: &Extent) {
     say!(
         "    {path}: {} at {}, {ulps} ULP at most; {ticks} ticks, from {} on",
         with_unit(format!("{largest:.3e}"), unit),
-        when(*largest_tick),
-        when(*first_tick)
+        at(*largest_tick),
+        at(*first_tick)
     );
 }
 

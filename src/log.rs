@@ -12,6 +12,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use engine::STEP_S;
 use logs::evolution::Difference;
+use logs::text::{at, size};
 use logs::{Ending, FlightReader, LogError, Messages};
 use recorder::statistics::Statistics;
 
@@ -117,7 +118,7 @@ fn info(log: &Path) -> Result<ExitCode> {
     let ticks = last.saturating_sub(start);
     say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
     if start != 0 {
-        say!("  {:<16} tick {start} ({:.3} s)", "begins at", start as f64 * STEP_S);
+        say!("  {:<16} {}", "begins at", at(start));
     }
     if reader.is_compacted() {
         say!("  {:<16} yes: most states are flown again while reading", "compacted");
@@ -182,11 +183,7 @@ fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {
     if done.messages_foreign > 0 {
         say!("           {} messages on channels of others", done.messages_foreign);
     }
-    say!(
-        "size       {:.1} kB of {:.1} kB",
-        done.bytes_written as f64 * 1e-3,
-        done.bytes_read as f64 * 1e-3
-    );
+    say!("size       {} of {}", size(done.bytes_written), size(done.bytes_read));
     Ok(ExitCode::SUCCESS)
 }
 

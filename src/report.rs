@@ -3,6 +3,7 @@
 use engine::STEP_S;
 use engine::math::PI;
 use logs::LogError;
+use logs::text::size;
 use recorder::Landing;
 use recorder::statistics::Durations;
 use replay::ReplayError;
@@ -70,8 +71,8 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     say!("FlightGear {} packets sent, {} not", landing.sent, landing.unsent);
     match &landing.log {
         Ok(closed) => say!(
-            "log        {out}, {:.1} MB ({:.0} B a tick), digest {:016x}, nothing dropped",
-            closed.bytes as f64 * 1e-6,
+            "log        {out}, {} ({:.0} B a tick), digest {:016x}, nothing dropped",
+            size(closed.bytes),
             closed.bytes as f64 / flown.ticks.max(1) as f64,
             closed.digest
         ),

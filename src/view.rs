@@ -30,6 +30,7 @@ mod with_rerun {
 
     use anyhow::{Context, bail};
     use engine::STEP_NS;
+    use logs::text::{at, size};
     use replay::view::{DrawError, FlightView, Level, Other, draw_against};
     use replay::{Reflight, Window};
 
@@ -51,7 +52,7 @@ mod with_rerun {
             Some(other) => save_against(&args.log, Other::Log(other), &saved)?,
             None => save(&args.log, &saved, &window)?,
         };
-        say!("{}: {:.1} MB for rerun", saved.display(), bytes as f64 * 1e-6);
+        say!("{}: {} for rerun", saved.display(), size(bytes));
         if args.save.is_none() {
             Command::new("rerun").arg(&saved).spawn().with_context(|| {
                 format!(
@@ -75,7 +76,7 @@ mod with_rerun {
         })?;
         match drawn.first_difference {
             Some(tick) => {
-                say!("first difference at tick {tick} ({:.3} s)", tick as f64 * engine::STEP_S);
+                say!("first difference at {}", at(tick));
             }
             None => say!("no difference"),
         }

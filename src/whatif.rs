@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use engine::math::{PI, atan2, min, sqrt};
 use engine::{Outputs, STEP_S, State};
+use logs::text::size;
 use replay::{NewLog, Window, names_parent, parent, rewrite};
 
 use crate::window::Moment;
@@ -85,11 +86,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     .with_context(name)?;
     say!("{}: {}", out.display(), changes.join("; "));
     say!(
-        "{:.3} s to {:.3} s of {} by its recorded inputs, {:.1} MB, digest {:016x}",
+        "{:.3} s to {:.3} s of {} by its recorded inputs, {}, digest {:016x}",
         initial.time_s(),
         apart.last_tick as f64 * STEP_S,
         log.display(),
-        written.closed.bytes as f64 * 1e-6,
+        size(written.closed.bytes),
         written.closed.digest
     );
     apart.say();

@@ -19,12 +19,15 @@ mod recover;
 pub mod schema;
 mod seal;
 mod setup;
+pub mod text;
 pub mod units;
 pub mod view;
 mod writer;
 
 use std::io;
 use std::path::Path;
+
+use text::at;
 
 pub use index::{closing, marker};
 pub use narrator::Narrator;
@@ -119,10 +122,6 @@ pub enum LogError {
     /// A type that is not recordable.
     #[error(transparent)]
     Fields(#[from] fields::NotRecordable),
-}
-
-fn at(tick: u64) -> String {
-    format!("tick {tick} ({:.3} s)", tick as f64 * engine::STEP_S)
 }
 
 fn outside(tick: u64, first: u64, last: u64) -> String {

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use engine::STEP_S;
 use engine::cockpit::Params as Cockpit;
 use engine::inputs::{DeviceEvent, EventKind};
 use logs::fields::Value;
 use logs::records::InputsRecord;
+use logs::text::at;
 use logs::units::with_unit;
 use logs::{LogError, cdr};
 
@@ -292,11 +292,6 @@ fn count(counts: &mut Vec<(Stage, u64)>, stage: Stage) {
     }
 }
 
-/// `tick 5 (0.020 s)`.
-pub(crate) fn when(tick: u64) -> String {
-    format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S)
-}
-
 fn apart(recorded: Value, reflown: Value) -> String {
     recorded.ulps_to(reflown).map_or("?".into(), |ulps| ulps.to_string())
 }
@@ -309,7 +304,7 @@ fn counted(stages: &[(Stage, u64)]) -> String {
 
 impl fmt::Display for Divergence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "first difference: {}", when(self.tick))?;
+        writeln!(f, "first difference: {}", at(self.tick))?;
         let stage = self.stage.map_or("(not known here)", Stage::name);
         write!(f, "  stage     {stage}")?;
         match self.stage.and_then(Stage::or_before) {
@@ -322,7 +317,7 @@ impl fmt::Display for Divergence {
                 "  block     {}: {} at {}, recorded {}, reflown {}, {} ULP apart",
                 block.stage.name(),
                 block.path,
-                when(block.tick),
+                at(block.tick),
                 with_unit(block.recorded, &block.unit),
                 with_unit(block.reflown, &block.unit),
                 apart(block.recorded, block.reflown)
@@ -386,6 +381,6 @@ impl fmt::Display for InputChange {
                 write!(f, "{path} from {} to {}", with_unit(*from, unit), with_unit(*to, unit))?;
             }
         }
-        write!(f, ", for {}", when(self.led_to_tick()))
+        write!(f, ", for {}", at(self.led_to_tick()))
     }
 }

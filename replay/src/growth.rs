@@ -5,10 +5,10 @@ use std::fmt;
 use engine::math::ln;
 use engine::{STEP_S, State};
 use logs::LogError;
+use logs::text::at;
 use logs::units::unit_of;
 
 use crate::compare::{Names, group_of};
-use crate::divergence::when;
 
 /// When it is looked at, in seconds after the first difference.
 pub const MOMENTS_S: [u64; 5] = [0, 1, 2, 5, 10];
@@ -196,7 +196,7 @@ impl fmt::Display for Growth {
             })?;
         }
         match (self.same_from, self.doubling_s()) {
-            (Some(tick), _) => write!(f, "\n    the same again from {} on", when(tick)),
+            (Some(tick), _) => write!(f, "\n    the same again from {} on", at(tick)),
             (None, Some(doubling_s)) => write!(
                 f,
                 "\n    the velocities' difference doubles every {doubling_s:.3} s (fitted over {:.1} s)",

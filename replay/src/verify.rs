@@ -5,10 +5,11 @@ use std::fmt;
 use std::path::Path;
 
 use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
+use logs::text::at;
 use logs::{Ending, Identity, LogError, Recovery, Tick, cdr};
 
 use crate::compare::Names;
-use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
+use crate::divergence::{Divergence, LastInput, Parted, SingleSteps};
 use crate::growth::WINDOW_TICKS;
 use crate::refly::{Reflight, ReplayError, Window};
 use crate::versions::Versions;
@@ -305,7 +306,7 @@ impl fmt::Display for Verdict {
                 self.ticks as f64 * STEP_S,
                 match self.start_tick {
                     0 => String::new(),
-                    tick => format!(" from {} on", when(tick)),
+                    tick => format!(" from {} on", at(tick)),
                 },
                 self.digest
             )?;
@@ -337,12 +338,12 @@ impl fmt::Display for Verdict {
                 f,
                 "\nat {} the state, which a compacted log does not keep, has not the digest that was \
                  kept: this program flies otherwise, or the log was changed after the flight",
-                when(tick)
+                at(tick)
             )?,
             Some(tick) => write!(
                 f,
                 "\nthe log was changed after the flight: the digest breaks at {}",
-                when(tick)
+                at(tick)
             )?,
             None => {}
         }
@@ -353,7 +354,7 @@ impl fmt::Display for Verdict {
         if let Ending::Damaged(why) = &self.ending
             && (self.divergence.is_some() || self.disorder.is_some())
         {
-            write!(f, "\nthe file is damaged after {}: {why}", when(last))?;
+            write!(f, "\nthe file is damaged after {}: {why}", at(last))?;
         }
         Ok(())
     }

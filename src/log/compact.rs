@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::compact::{self, Copied};
+use logs::text::{at, size};
 
 use crate::report;
 use crate::whatif::refuse_itself;
@@ -57,10 +58,10 @@ pub fn compact(args: &CompactArgs) -> Result<ExitCode> {
     })?;
     let ticks = copied.states.saturating_sub(1);
     say!(
-        "{}: {:.3} MB of {:.3} MB, {:.1} B a tick; {ticks} ticks ({:.1} s) flown again to the same bits",
+        "{}: {} of {}, {:.1} B a tick; {ticks} ticks ({:.1} s) flown again to the same bits",
         out.display(),
-        copied.bytes as f64 * 1e-6,
-        copied.bytes_before as f64 * 1e-6,
+        size(copied.bytes),
+        size(copied.bytes_before),
         copied.bytes as f64 / ticks.max(1) as f64,
         ticks as f64 * STEP_S
     );
@@ -89,16 +90,16 @@ pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
     }
     let ticks = copied.states.saturating_sub(1);
     say!(
-        "{}: {:.3} MB, {ticks} ticks ({:.1} s)",
+        "{}: {}, {ticks} ticks ({:.1} s)",
         out.display(),
-        copied.bytes as f64 * 1e-6,
+        size(copied.bytes),
         ticks as f64 * STEP_S
     );
     if let Some(tick) = broken {
         complain!(
-            "tiltrotor: {}: not what was compacted: the digest breaks at tick {tick} ({:.3} s)",
+            "tiltrotor: {}: not what was compacted: the digest breaks at {}",
             out.display(),
-            tick as f64 * STEP_S
+            at(tick)
         );
         return Ok(ExitCode::from(report::DIVERGED));
     }

@@ -7,6 +7,7 @@ use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Ending;
 use logs::export::{Exported, Form, export};
+use logs::text::size;
 
 use crate::report;
 
@@ -82,12 +83,7 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> u8 {
                 .filter(|(table, _)| *table != "flights")
                 .map(|(table, rows)| format!("{table} {rows}"))
                 .collect();
-            say!(
-                "{}: {flight}, {:.1} MB, rows: {}",
-                log.display(),
-                bytes as f64 * 1e-6,
-                rows.join(", ")
-            );
+            say!("{}: {flight}, {}, rows: {}", log.display(), size(bytes), rows.join(", "));
             match ending {
                 Ending::Closed => 0,
                 Ending::Truncated => {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
+use logs::text::size;
 
 use crate::{identity, report};
 
@@ -22,7 +23,7 @@ pub fn run(logs: &[PathBuf], aircraft: Option<&Path>, write: bool) -> Result<Exi
             Ok(moved) => {
                 say!("{}: {moved}", log.display());
                 if write {
-                    say!("{}: blessed, {:.1} kB", log.display(), moved.bytes as f64 * 1e-3);
+                    say!("{}: blessed, {}", log.display(), size(moved.bytes));
                 } else if !moved.is_same() {
                     status = status.max(report::DIVERGED);
                 }
