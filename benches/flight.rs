@@ -16,7 +16,7 @@ use engine::{Aircraft, Inputs, State, step};
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Setup};
 use recorder::pilots::Pilot;
-use recorder::writer::{Item, Recording};
+use recorder::writer::{Entry, Recording};
 use recorder::{Flight, Progress, fly};
 use replay::{Options, Window};
 
@@ -102,9 +102,9 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);
-        recording.put(Item::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
-        recording.put(Item::State(State { tick: tick + 1, ..state }));
-        recording.put(Item::Timing(TimingRecord { tick, ..TimingRecord::default() }));
+        recording.put(Entry::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
+        recording.put(Entry::State(State { tick: tick + 1, ..state }));
+        recording.put(Entry::Timing(TimingRecord { tick, ..TimingRecord::default() }));
     });
     recording.finish().0.expect("a whole log");
     let _ = fs::remove_file(out);

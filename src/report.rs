@@ -80,7 +80,7 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     }
     if landing.delay.times > 0 {
         say!(
-            "writer     held up {} times, {:.1} s at most; at most {} items waited, none was lost",
+            "writer     held up {} times, {:.1} s at most; at most {} entries waited, none was lost",
             landing.delay.times,
             landing.delay.longest.as_secs_f64(),
             landing.backlog_max

@@ -5,7 +5,7 @@ use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, observe, step, trim};
 
-use crate::flight::Crew;
+use crate::crew::Crew;
 use crate::hands::Hands;
 
 /// One tick of a rehearsal.
