@@ -124,7 +124,7 @@ fn verify_a_minute(bencher: Bencher) {
     let (log, _) = flown("verify", TICKS);
     bencher
         .counter(ItemsCount::new(TICKS))
-        .bench_local(|| replay::verify(&log, &Options::default(), |_| ()).expect("a log").exact);
+        .bench_local(|| replay::verify(&log, &Options::default(), |_| ()).expect("a log").facts.same);
     let _ = fs::remove_file(log);
 }
 
@@ -148,7 +148,7 @@ fn verify_ten_minutes(bencher: Bencher, form: &str) {
     let log = if form == "whole" { whole } else { compact };
     bencher
         .counter(ItemsCount::new(LONG_TICKS))
-        .bench_local(|| replay::verify(log, &Options::default(), |_| ()).expect("a log").exact);
+        .bench_local(|| replay::verify(log, &Options::default(), |_| ()).expect("a log").facts.same);
 }
 
 /// Ten minutes compacted.

@@ -1,19 +1,18 @@
 //! `tiltrotor diff`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::{Result, anyhow};
 use engine::STEP_S;
 use engine::inputs::{DeviceEvent, EventKind};
 use indicatif::{ProgressBar, ProgressStyle};
-use logs::Ending;
 use logs::text::at;
 use logs::units::with_unit;
 use replay::{Diff, Extent, FileDifference, KeyDifference, Side, Stage, Which, diff};
 use serde_json::{Value, json};
 
-use crate::{json, report};
+use crate::json;
+use crate::status::Status;
 
 /// Two logs.
 #[derive(clap::Args)]
@@ -42,8 +41,8 @@ enum Format {
 /// Lines of a list, unless all are asked for.
 const LINES: usize = 12;
 
-/// Compares them as they were recorded. Exit 0 the same flight, 1 not, 2 not usable.
-pub fn run(args: &Args) -> Result<ExitCode> {
+/// Compares them as they were recorded.
+pub fn run(args: &Args) -> Result<Status> {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
         bar.set_style(style);
@@ -63,14 +62,14 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         Format::Text => tell(args, &diff),
         Format::Json => say!("{:#}", in_json(args, &diff)),
     }
-    Ok(ExitCode::from(status(&diff)))
+    Ok(status(&diff))
 }
 
-fn status(diff: &Diff) -> u8 {
+fn status(diff: &Diff) -> Status {
     match (diff.usable(), diff.same()) {
-        (false, _) => report::UNUSABLE,
-        (true, true) => 0,
-        (true, false) => report::DIVERGED,
+        (false, _) => Status::Unusable,
+        (true, true) => Status::Done,
+        (true, false) => Status::Differs,
     }
 }
 
@@ -110,14 +109,8 @@ fn tell(args: &Args, diff: &Diff) {
 }
 
 fn told(side: &Side) -> String {
-    let end = match (&side.disorder, &side.ending) {
-        (Some(disorder), _) => disorder.clone(),
-        (None, Ending::Closed) => "closed".into(),
-        (None, Ending::Truncated) => "never closed".into(),
-        (None, Ending::Damaged(why)) => format!("damaged: {why}"),
-    };
     let (from, to) = (at(side.start_tick), at(side.last_tick));
-    format!("from {from} to {to}, digest {:016x}, {end}", side.digest)
+    format!("from {from} to {to}, digest {:016x}\n   {}", side.digest, side.judgement)
 }
 
 fn or_none(value: Option<&str>) -> &str {
@@ -217,15 +210,8 @@ fn in_json(args: &Args, diff: &Diff) -> Value {
             "start_tick": side.start_tick,
             "last_tick": side.last_tick,
             "digest": format!("{:016x}", side.digest),
-            "ending": match &side.ending {
-                Ending::Closed => "closed",
-                Ending::Truncated => "never_closed",
-                Ending::Damaged(_) => "damaged",
-            },
-            "damage": match &side.ending {
-                Ending::Damaged(why) => Some(why),
-                _ => side.disorder.as_ref(),
-            },
+            "judgement": json::judgement(&side.judgement),
+            "end": json::end(&side.end),
         })
     };
     let keys = |keys: &[KeyDifference]| -> Value {
@@ -234,8 +220,8 @@ fn in_json(args: &Args, diff: &Diff) -> Value {
     let file = |file: &FileDifference| json!({ "file": file.name, "keys": keys(&file.keys) });
     json!({
         "report": "tiltrotor diff",
-        "version": 1,
-        "status": status(diff),
+        "version": 2,
+        "status": status(diff).number(),
         "same": diff.same(),
         "a": side(&args.a, &diff.a),
         "b": side(&args.b, &diff.b),

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use engine::dense::Matrix;
@@ -11,6 +10,7 @@ use engine::modes::modes;
 use engine::trim::trim;
 
 use crate::condition::{Condition, DEG, INCH_M};
+use crate::status::Status;
 
 /// About which steady flight.
 #[derive(clap::Args)]
@@ -75,7 +75,7 @@ const RESPONSES: [Response; 4] = [
 const OMEGAS: [f64; 11] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
 
 /// Trims, linearises, and prints modes and matrices.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let (aircraft, target) = args.condition.read()?;
     let trim = trim(&aircraft, &target).map_err(anyhow::Error::new).context("no steady flight")?;
     let linear = linearize(&aircraft, &trim, &target.world);
@@ -124,7 +124,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         fs::write(path, csv(&linear))
             .with_context(|| format!("cannot write {}", path.display()))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 fn responses(linear: &Linear) {

@@ -1,4 +1,4 @@
-//! What a flight prints when it is over, and the exit statuses.
+//! What a flight prints when it is over.
 
 use engine::STEP_S;
 use engine::math::PI;
@@ -7,19 +7,6 @@ use logs::text::size;
 use recorder::Landing;
 use recorder::statistics::Durations;
 use replay::ReplayError;
-
-/// A log that does not refly to the same bits, or was changed.
-pub const DIVERGED: u8 = 1;
-/// A log that cannot be used, or a command that cannot be carried out.
-pub const UNUSABLE: u8 = 2;
-/// A log that is exact as far as it goes, but was never closed.
-pub const NEVER_CLOSED: u8 = 3;
-/// The flight went on, but its log ends early.
-pub const LOG_CUT_SHORT: u8 = 4;
-/// There is no such steady flight.
-pub const NO_TRIM: u8 = 5;
-/// A log of another version, flown for comparison.
-pub const COMPARED: u8 = 6;
 
 /// Why a log is not reflown, and what can be done about it.
 pub fn refusal(error: &ReplayError) -> String {

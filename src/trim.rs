@@ -2,13 +2,12 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use engine::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
 
 use crate::condition::{Condition, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, POUND_N, sweep};
-use crate::report;
+use crate::status::Status;
 
 /// Which steady flight, or flights.
 #[derive(clap::Args)]
@@ -109,7 +108,7 @@ impl Column {
 }
 
 /// Trims, and prints a list or a table.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let (aircraft, target) = args.condition.read()?;
     let speeds_kt = match &args.sweep {
         Some(Sweep(speeds)) => speeds.clone(),
@@ -137,7 +136,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         list(&rows[0].1);
     }
     let steady = rows.iter().all(|(_, found)| found.is_ok());
-    Ok(if steady { ExitCode::SUCCESS } else { ExitCode::from(report::NO_TRIM) })
+    Ok(if steady { Status::Done } else { Status::NotConverged })
 }
 
 /// A row of a sweep: the speed, and what was found.

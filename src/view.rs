@@ -1,9 +1,10 @@
 //! `tiltrotor view`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::Result;
+
+use crate::status::Status;
 
 /// What to show.
 #[derive(clap::Args)]
@@ -34,10 +35,10 @@ mod with_rerun {
     use replay::view::{DrawError, FlightView, Level, Other, draw_against};
     use replay::{Reflight, Window};
 
-    use super::{Args, ExitCode, Result};
+    use super::{Args, Result, Status};
 
     /// Reflies the log into a recording, and opens the viewer unless it is to be saved.
-    pub fn run(args: &Args) -> Result<ExitCode> {
+    pub fn run(args: &Args) -> Result<Status> {
         let saved = args.save.clone().unwrap_or_else(|| args.log.with_extension("rrd"));
         if saved.exists() && !args.force {
             bail!("{} exists; overwrite it with --force", saved.display());
@@ -61,7 +62,7 @@ mod with_rerun {
                 )
             })?;
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(Status::Done)
     }
 
     /// Draws the log and what is beside it into a recording; returns its size.
@@ -110,7 +111,7 @@ pub use with_rerun::{run, save};
 
 /// Says what is missing.
 #[cfg(not(feature = "rerun"))]
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let Args { log, against: _, save: _, force: _, window: _ } = args;
     anyhow::bail!(
         "{}: this program was built without `rerun`; build it with the default features, or open the \

@@ -1,7 +1,6 @@
 //! `tiltrotor whatif`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::math::{PI, atan2, min, sqrt};
@@ -9,6 +8,7 @@ use engine::{Outputs, STEP_S, State};
 use logs::text::size;
 use replay::{NewLog, Window, names_parent, parent, rewrite};
 
+use crate::status::Status;
 use crate::window::Moment;
 use crate::{identity, report};
 
@@ -38,7 +38,7 @@ pub struct Args {
 }
 
 /// Flies what would have been, and says what became of it.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let log = &args.log;
     let name = || log.display().to_string();
     let mut reader = replay::open(log).with_context(name)?;
@@ -95,7 +95,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     );
     apart.say();
     say!("`tiltrotor diff {} {}` says more", log.display(), out.display());
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 fn beside(log: &Path) -> PathBuf {

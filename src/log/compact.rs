@@ -1,7 +1,6 @@
 //! `tiltrotor log compact` and `log expand`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
@@ -9,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use logs::compact::{self, Copied};
 use logs::text::{at, size};
 
-use crate::report;
+use crate::status::Status;
 use crate::whatif::refuse_itself;
 
 /// Seconds between two states that are kept: an eighth of what is kept at all, and soon flown.
@@ -45,7 +44,7 @@ pub struct ExpandArgs {
 }
 
 /// Compacts.
-pub fn compact(args: &CompactArgs) -> Result<ExitCode> {
+pub fn compact(args: &CompactArgs) -> Result<Status> {
     let keyframe_ticks = (args.keyframes / STEP_S).round();
     if !(1.0..=250_000.0).contains(&keyframe_ticks) {
         bail!("--keyframes {}: expected {STEP_S} s (one tick) to 1000 s", args.keyframes);
@@ -65,11 +64,11 @@ pub fn compact(args: &CompactArgs) -> Result<ExitCode> {
         copied.bytes as f64 / ticks.max(1) as f64,
         ticks as f64 * STEP_S
     );
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 /// Expands.
-pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
+pub fn expand(args: &ExpandArgs) -> Result<Status> {
     let stem = stem(&args.log);
     let name = match stem.strip_suffix("-compact") {
         Some(before) => format!("{before}.mcap"),
@@ -101,7 +100,7 @@ pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
             out.display(),
             at(tick)
         );
-        return Ok(ExitCode::from(report::DIVERGED));
+        return Ok(Status::Differs);
     }
     say!(
         "every digest follows from the states that were flown again, last {:016x}",
@@ -114,7 +113,7 @@ pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
              had put it together"
         ),
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 /// Carries it out with a line of progress on a terminal; when it fails, no file is left.

@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
@@ -11,6 +10,7 @@ use logs::text::{at, size};
 use replay::{KEYFRAME_TICKS, NewLog, Window, beside, names_parent, parent, rewrite};
 
 use crate::identity;
+use crate::status::Status;
 use crate::whatif::refuse_itself;
 use crate::window::WindowArgs;
 
@@ -42,7 +42,7 @@ pub struct Args {
 }
 
 /// Cuts the part out, flies it, and writes it.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let window = args.window.of(&args.log)?;
     let Some(name) = &args.as_golden else {
         let stem = args.log.file_stem().unwrap_or_default().display().to_string();
@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         let out = args.out.clone().unwrap_or_else(|| args.log.with_file_name(name));
         let (ticks, bytes) = cut(args, &window, &out, args.force, true)?;
         told(&out, ticks, bytes);
-        return Ok(ExitCode::SUCCESS);
+        return Ok(Status::Done);
     };
     let letters = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || !name.chars().all(letters) {
@@ -84,7 +84,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     }
     enter(&folder.join("README.md"), name, reason)?;
     say!("`cargo test --no-default-features --test golden` verifies it");
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 fn told(out: &Path, ticks: u64, bytes: u64) {
