@@ -16,7 +16,7 @@ use engine::{Aircraft, Inputs, State, step};
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Setup};
 use recorder::pilots::Pilot;
-use recorder::writer::{Entry, Recording};
+use recorder::writer::{Recording, ToRecord};
 use recorder::{Flight, Progress, fly};
 use replay::{Options, Window};
 
@@ -102,9 +102,9 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);
-        recording.put(Entry::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
-        recording.put(Entry::State(State { tick: tick + 1, ..state }));
-        recording.put(Entry::Timing(TimingRecord { tick, ..TimingRecord::default() }));
+        recording.put(ToRecord::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
+        recording.put(ToRecord::State(State { tick: tick + 1, ..state }));
+        recording.put(ToRecord::Timing(TimingRecord { tick, ..TimingRecord::default() }));
     });
     recording.finish().0.expect("a whole log");
     let _ = fs::remove_file(out);
@@ -122,9 +122,9 @@ fn recording_has_room(tick: u64) {
 #[divan::bench(sample_count = 10, sample_size = 1)]
 fn verify_a_minute(bencher: Bencher) {
     let (log, _) = flown("verify", TICKS);
-    bencher
-        .counter(ItemsCount::new(TICKS))
-        .bench_local(|| replay::verify(&log, &Options::default(), |_| ()).expect("a log").facts.same);
+    bencher.counter(ItemsCount::new(TICKS)).bench_local(|| {
+        replay::verify(&log, &Options::default(), |_| ()).expect("a log").facts.same
+    });
     let _ = fs::remove_file(log);
 }
 
@@ -146,9 +146,9 @@ fn ten_minutes() -> &'static (PathBuf, PathBuf) {
 fn verify_ten_minutes(bencher: Bencher, form: &str) {
     let (whole, compact) = ten_minutes();
     let log = if form == "whole" { whole } else { compact };
-    bencher
-        .counter(ItemsCount::new(LONG_TICKS))
-        .bench_local(|| replay::verify(log, &Options::default(), |_| ()).expect("a log").facts.same);
+    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| {
+        replay::verify(log, &Options::default(), |_| ()).expect("a log").facts.same
+    });
 }
 
 /// Ten minutes compacted.

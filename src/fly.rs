@@ -275,7 +275,7 @@ impl Plan {
                     "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  {} late  {}",
                     now.tick as f64 * STEP_S,
                     now.height_m,
-                    report::knots(now.airspeed_mps),
+                    engine::units::knots(now.airspeed_mps),
                     report::compass_deg(now.heading_rad),
                     now.overruns,
                     phase.unwrap_or(&"")

@@ -8,8 +8,9 @@ use engine::dense::Matrix;
 use engine::linearize::{Linear, decibels, linearize};
 use engine::modes::modes;
 use engine::trim::trim;
+use engine::units::{DEG_PER_RAD as DEG, INCH_M};
 
-use crate::condition::{Condition, DEG, INCH_M};
+use crate::condition::Condition;
 use crate::status::Status;
 
 /// About which steady flight.

@@ -1,7 +1,7 @@
 //! What a flight prints when it is over.
 
 use engine::STEP_S;
-use engine::math::PI;
+use engine::units::degrees;
 use logs::LogError;
 use logs::text::size;
 use recorder::Landing;
@@ -21,14 +21,9 @@ pub fn refusal(error: &ReplayError) -> String {
 /// Latency beyond which CS-FSTD(A) refuses a simulator.
 const LATENCY_LIMIT_MS: f64 = 150.0;
 
-/// Mean knots of a speed.
-pub fn knots(mps: f64) -> f64 {
-    mps * 3600.0 / 1852.0
-}
-
 /// Heading as a compass shows it, 0..360.
 pub fn compass_deg(heading_rad: f64) -> f64 {
-    (heading_rad * 180.0 / PI).rem_euclid(360.0)
+    degrees(heading_rad).rem_euclid(360.0)
 }
 
 /// Sums up a flight on standard output.

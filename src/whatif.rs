@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use engine::math::{PI, atan2, min, sqrt};
+use engine::math::{atan2, min, sqrt};
+use engine::units::{degrees, knots};
 use engine::{Outputs, STEP_S, State};
 use logs::text::size;
 use replay::{NewLog, Window, names_parent, parent, rewrite};
 
+use crate::identity;
 use crate::status::Status;
-use crate::window::Moment;
-use crate::{identity, report};
+use crate::window::When;
 
 /// What to change, and from when on.
 #[derive(clap::Args)]
@@ -25,10 +26,10 @@ pub struct Args {
     aircraft: Option<PathBuf>,
     /// From there on: a time in s (12.5), a tick (3125t), or a marker (marker:1)
     #[arg(long, value_name = "WHEN", default_value = "0t")]
-    from: Moment,
+    from: When,
     /// End there
     #[arg(long, value_name = "WHEN")]
-    until: Option<Moment>,
+    until: Option<When>,
     /// The new log [default: LOG with -whatif]
     #[arg(long, value_name = "NEW.mcap")]
     out: Option<PathBuf>,
@@ -69,7 +70,7 @@ pub fn run(args: &Args) -> Result<Status> {
         bail!("--until is not after --from");
     }
     // A log that does not begin at tick 0 is flown from where it begins, unless told otherwise.
-    let clamped = args.from == Moment::Tick(0);
+    let clamped = args.from == When::Tick(0);
     let window = Window { from_tick: Some(from_tick), until_tick, clamped };
     window.apply(&mut reader).with_context(name)?;
     let out = args.out.clone().unwrap_or_else(|| beside(log));
@@ -135,9 +136,9 @@ impl Apart {
         let (a, b) = (was.attitude, is.attitude);
         let cosine = min((a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z).abs(), 1.0);
         let sine = sqrt(1.0 - cosine * cosine);
-        self.attitude_deg = 2.0 * atan2(sine, cosine) * 180.0 / PI;
-        self.airspeed_kt = report::knots(is.velocity_mps.norm() - was.velocity_mps.norm());
-        if outputs.validity != 0 {
+        self.attitude_deg = degrees(2.0 * atan2(sine, cosine));
+        self.airspeed_kt = knots(is.velocity_mps.norm() - was.velocity_mps.norm());
+        if !outputs.validity.is_empty() {
             self.outside.get_or_insert(state.tick);
         }
     }

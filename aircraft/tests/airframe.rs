@@ -5,16 +5,13 @@
 //! advance ratio and elevator forced, so that no trim stands between the two numbers.
 
 use engine::Aircraft;
-use engine::aero::{
-    Motion, fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
-};
+use engine::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
 use engine::frames::{Body, Load, Vec3};
 use engine::math::{PI, sqrt, square};
+use engine::motion::Motion;
 use engine::pair::Pair;
+use engine::units::{DEGREE_RAD as DEG, FOOT_M as FT, POUND_N as LBF};
 
-const DEG: f64 = PI / 180.0;
-const FT: f64 = 0.3048;
-const LBF: f64 = 4.448_221_615_260_5;
 const FT_LBF: f64 = FT * LBF;
 const SLUG_PER_FT3: f64 = LBF / (FT * FT * FT * FT);
 
@@ -96,11 +93,11 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         angular_rate_radps: Vec3::zero(),
         density_kg_per_m3: 0.002_377 * SLUG_PER_FT3,
     };
-    let mach = motion.airspeed_mps.norm() / 340.294;
+    let mach = motion.airspeed_mps.norm() / engine::isa::SOUND_SPEED_SL_MPS;
     let (flap_rad, elevator_rad) = (40.0 * DEG, trim.elevator_deg * DEG);
     let [x, y, z] = trim.rotor_lbf;
     let axis = Vec3::<Body>::new(0.0, 0.0, -1.0);
-    let wake = rotor_wake::rotor_wake(
+    let wake = rotor_wake::evaluate(
         &xv15.rotor_wake,
         &rotor_wake::Inputs {
             motion,
@@ -113,7 +110,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
             rotor_radius_m: 12.5 * FT,
         },
     );
-    let half = wing_pylon::half_wing(
+    let half = wing_pylon::evaluate(
         &xv15.wing_pylon,
         &wing_pylon::Inputs {
             motion,
@@ -151,7 +148,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         rudder_rad: 0.0,
     };
     Loads {
-        fuselage: fuselage::fuselage(
+        fuselage: fuselage::evaluate(
             &xv15.fuselage,
             &fuselage::Inputs { motion, gear_extension_norm: 0.0 },
         ),
@@ -159,13 +156,9 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         immersed_wing: both(half.immersed),
         pylons: both(half.pylon),
         spinners: both(half.spinner),
-        tail: horizontal_stabilizer::horizontal_stabilizer(
-            &xv15.horizontal_stabilizer,
-            &settled,
-            &tail_inputs,
-        )
-        .1,
-        fins: both(vertical_stabilizers::fin(&xv15.vertical_stabilizers, &fin_inputs)),
+        tail: horizontal_stabilizer::evaluate(&xv15.horizontal_stabilizer, &settled, &tail_inputs)
+            .1,
+        fins: both(vertical_stabilizers::evaluate(&xv15.vertical_stabilizers, &fin_inputs)),
     }
 }
 

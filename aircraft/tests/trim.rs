@@ -1,16 +1,13 @@
 //! Trim and linearisation of the XV-15: steady is steady, symmetric is symmetric.
 
 use engine::frames::Vec3;
-use engine::inputs::{World, failures};
+use engine::inputs::{Failures, World};
 use engine::linearize::{INPUTS, RIGID, linearize};
-use engine::math::{FRAC_PI_2, PI, max, square};
+use engine::math::{FRAC_PI_2, max, square};
 use engine::modes::modes;
 use engine::trim::{Failure, Power, Target, Trim, trim, trim_near};
+use engine::units::{DEGREE_RAD as DEG, FOOT_PER_MINUTE_MPS as FPM, KNOT_MPS as KT};
 use engine::{Aircraft, Inputs, State, step};
-
-const DEG: f64 = PI / 180.0;
-const KT: f64 = 1852.0 / 3600.0;
-const FPM: f64 = 0.3048 / 60.0;
 
 /// What a steady state may be left with: m/s², rad/s². The least that a log would show is far above.
 const STEADY: f64 = 1e-6;
@@ -33,7 +30,7 @@ fn flight(tilt_deg: f64, speed_kt: f64, flap_detent: u64) -> Target {
 fn envelope() -> Vec<Target> {
     let near_ground = World { ground_height_m: -6.0, ..World::default() };
     let warm = World { temperature_offset_k: 20.0, ..Target::default().world };
-    let failed = World { failures: failures::ENGINE_LEFT, ..Target::default().world };
+    let failed = World { failures: Failures::ENGINE_LEFT, ..Target::default().world };
     vec![
         flight(0.0, 0.0, 2),
         flight(0.0, 20.0, 2),

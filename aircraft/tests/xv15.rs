@@ -7,10 +7,10 @@ use engine::frames::Vec3;
 use engine::inputs::World;
 use engine::math::{PI, square};
 use engine::symmetry::Mirror;
+use engine::units::DEGREE_RAD as DEG;
 use engine::{Aircraft, Inputs, State};
 use rotor_stand::{hover_at, hovering};
 
-const DEG: f64 = PI / 180.0;
 const LBF: f64 = 4.448_221_615_260_5;
 
 fn xv15() -> Aircraft {
@@ -41,7 +41,7 @@ fn tables_arrive_in_si() {
     close(mixer.collective_per_lever_rad_per_m.at(0.0), 1.6 * DEG / 0.0254);
     close(mixer.collective_per_lever_rad_per_m.at(45.0 * DEG), 0.5 * (0.92 + 0.71) * DEG / 0.0254);
     close(
-        mixer.cyclic_per_pedal_rad_per_m.at(60.0 * DEG, 80.0 * 1852.0 / 3600.0),
+        mixer.cyclic_per_pedal_rad_per_m.at(60.0 * DEG, 80.0 * engine::units::KNOT_MPS),
         0.52 * DEG / 0.0254,
     );
 }
@@ -85,7 +85,7 @@ fn cockpit_maps_and_scenario_load() {
 fn download(xv15: &Aircraft, detent: usize) -> f64 {
     let at = hover_at(&xv15.rotors, 589.0, 0.0105);
     let (motion, thrust_axis) = (hovering(589.0, 0.0).motion, xv15.rotors.thrust_axis(0.0));
-    let load = wing_pylon::half_wing(
+    let load = wing_pylon::evaluate(
         &xv15.wing_pylon,
         &wing_pylon::Inputs {
             motion,

@@ -1,7 +1,7 @@
 //! Fuel, speed, stall, conversion, autorotation.
 
 use engine::Aircraft;
-use engine::inputs::{World, failures};
+use engine::inputs::{Failures, World};
 use engine::trim::{GROUND_FAR_BELOW_M, Power, Target, Trim, trim};
 
 use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, RPM_RADPS};
@@ -179,7 +179,7 @@ pub fn autorotation(aircraft: &Aircraft, book: &mut Book) {
         aircraft.clone().with(|a| a.fcc.governor.rotor_speed_radps[0] = 553.0 * RPM_RADPS);
     let world = World {
         ground_height_m: GROUND_FAR_BELOW_M,
-        failures: failures::ENGINE_LEFT | failures::ENGINE_RIGHT,
+        failures: Failures::ENGINES,
         ..World::default()
     };
     let target = Target {

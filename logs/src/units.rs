@@ -2,25 +2,7 @@
 
 use std::fmt;
 
-/// Words of a name that are units, and how they are written.
-const UNITS: &[(&str, &str)] = &[
-    ("m", "m"),
-    ("m2", "m²"),
-    ("m3", "m³"),
-    ("mps", "m/s"),
-    ("mps2", "m/s²"),
-    ("rad", "rad"),
-    ("radps", "rad/s"),
-    ("radps2", "rad/s²"),
-    ("s", "s"),
-    ("ns", "ns"),
-    ("kg", "kg"),
-    ("n", "N"),
-    ("w", "W"),
-    ("pa", "Pa"),
-    ("k", "K"),
-    ("norm", "norm"),
-];
+use engine::units::SI;
 
 /// The unit of the number at `path`; empty for a count, a flag or a ratio. `norm` is travel of a
 /// control as a part of the whole.
@@ -36,7 +18,7 @@ pub fn unit_of(path: &str) -> String {
         // A name is more than its unit.
         return String::new();
     }
-    let written = |word: &str| UNITS.iter().find(|(known, _)| *known == word).map(|unit| unit.1);
+    let written = |word: &str| SI.iter().find(|(known, _)| *known == word).map(|unit| unit.1);
     let mut words = name.rsplit('_').peekable();
     let mut unit = String::new();
     while let Some(word) = words.next() {
@@ -76,7 +58,7 @@ mod tests {
             ("air.density_kg_per_m3", "kg/m³"),
             ("rate.engines.power_w_per_s.left", "W/s"),
             ("damping_n_m_s_per_rad", "N·m·s/rad"),
-            ("plant.treads.main.left.forward_m", "m"),
+            ("plant.tyre_deflections.main.left.forward_m", "m"),
             ("cockpit.brake_norm.right", "norm"),
             ("world.gust_s", "s"),
         ];

@@ -4,7 +4,8 @@
 //! called `tf#/`, which is where rerun looks.
 
 use engine::frames::{Attitude, Body, Ned, Structural, Vec3};
-use engine::math::{FRAC_PI_2, PI, cos, sin};
+use engine::math::{FRAC_PI_2, cos, sin};
+use engine::units::degrees;
 use engine::{Aircraft, Outputs};
 use serde::Serialize;
 
@@ -376,8 +377,8 @@ pub fn fix(outputs: &Outputs) -> Fix {
         header: header(outputs.tick, BASE),
         status: 0,
         service: 1,
-        latitude: outputs.place.latitude_rad * 180.0 / PI,
-        longitude: outputs.place.longitude_rad * 180.0 / PI,
+        latitude: degrees(outputs.place.latitude_rad),
+        longitude: degrees(outputs.place.longitude_rad),
         altitude: outputs.place.height_m,
         position_covariance: [0.0; 9],
         position_covariance_type: 0,

@@ -23,7 +23,7 @@ use crate::seal::{RollCall, Stamp, seal};
 use crate::setup::{
     CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, Setup,
 };
-use crate::view::{self, Level};
+use crate::view;
 use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
@@ -232,9 +232,9 @@ impl FlightWriter {
         tick: u64,
         what: Happening,
         value: u64,
-        level: Level,
         words: &str,
     ) -> Result<(), LogError> {
+        let level = what.facts().levels.of(value);
         let record = EventRecord { tick, kind: what as u64, value };
         self.record(self.channels.events, tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;

@@ -25,6 +25,6 @@ pub use flight::{Flight, FlyError, fly};
 pub use hands::{Hands, Reach};
 pub use landing::Landing;
 pub use progress::{Progress, Snapshot};
-pub use rehearsal::{Moment, rehearse};
+pub use rehearsal::{RehearsedTick, rehearse};
 pub use self_check::{Checked, Mismatch};
 pub use writer::Delay;

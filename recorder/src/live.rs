@@ -20,7 +20,7 @@ use crate::landing::Landing;
 use crate::progress::Progress;
 use crate::self_check::SelfCheck;
 use crate::statistics::Statistics;
-use crate::writer::{Entry, Recording};
+use crate::writer::{Recording, ToRecord};
 
 /// Device events handled in one tick without asking for memory.
 const EVENTS_A_TICK: usize = 1024;
@@ -171,13 +171,13 @@ where
     /// Hands the inputs over to the writer, before the step that uses them.
     fn record(&mut self, tick: u64, phase: Option<Phase>) {
         for event in &self.events {
-            self.recording.put(Entry::Event(*event));
+            self.recording.put(ToRecord::Event(*event));
         }
         let events = self.events.len() as u64;
         let inputs = InputsRecord { tick, events, world: self.crew.world };
-        self.recording.put(Entry::Inputs(inputs));
+        self.recording.put(ToRecord::Inputs(inputs));
         if let Some((number, name)) = phase {
-            self.recording.put(Entry::Phase(tick, number, name));
+            self.recording.put(ToRecord::Phase(tick, number, name));
         }
     }
 
@@ -193,7 +193,7 @@ where
             link.send(&self.outputs);
         }
         let sent_ns = now_ns();
-        self.recording.put(Entry::State(self.state));
+        self.recording.put(ToRecord::State(self.state));
         self.recording.show(&self.outputs, self.state.plant.attitude);
         if let Some(check) = &mut self.self_check {
             check.put(&self.events, self.crew.world, &self.state);
@@ -219,7 +219,7 @@ where
             record_ns: (times.recorded_ns - times.sampled_ns) + (times.handed_ns - times.sent_ns),
             overrun: u64::from(due_ns.is_some_and(|due_ns| times.handed_ns > due_ns + STEP_NS)),
         };
-        self.recording.put(Entry::Timing(timing));
+        self.recording.put(ToRecord::Timing(timing));
         self.statistics.add(&timing);
         let (overruns, failed) = (self.statistics.overruns, self.recording.has_failed());
         self.progress.show(&self.outputs, self.crew.phase.0, overruns, failed);
@@ -227,7 +227,7 @@ where
 
     /// Ends the log and the threads beside the loop.
     fn land(mut self, stopped: bool) -> Landing {
-        self.recording.put(Entry::Landed(self.state.tick, if stopped { 2 } else { 0 }));
+        self.recording.put(ToRecord::Landed(self.state.tick, if stopped { 2 } else { 0 }));
         let backlog_max = self.recording.backlog_max;
         // Before the log is closed: what it finds last is told there, too.
         let checked = self.self_check.map(SelfCheck::finish);

@@ -14,7 +14,6 @@ use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
 use logs::records::{Happening, InputsRecord, TimingRecord};
-use logs::view::Level;
 use logs::{Closed, FlightWriter, LogError, Narrator};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
@@ -47,7 +46,7 @@ pub struct Delay {
 #[derive(Clone, Copy)]
 // The state is by far the largest and by far the most frequent.
 #[allow(clippy::large_enum_variant)]
-pub enum Entry {
+pub enum ToRecord {
     /// A device event.
     Event(DeviceEvent),
     /// The world, before the step.
@@ -64,8 +63,8 @@ pub enum Entry {
 
 /// The loop's end of the hand-over.
 pub struct Recording {
-    ring: Producer<Entry>,
-    overflow: VecDeque<Entry>,
+    ring: Producer<ToRecord>,
+    overflow: VecDeque<ToRecord>,
     view: Producer<(Outputs, Attitude)>,
     thread: Option<JoinHandle<(Result<Closed, LogError>, Delay)>>,
     failed: Arc<AtomicBool>,
@@ -77,7 +76,7 @@ pub struct Recording {
 impl Recording {
     /// Starts the thread; `mismatches` is what a self-check finds.
     pub fn start(writer: FlightWriter, initial: &State, mismatches: Receiver<Mismatch>) -> Self {
-        let (ring, entries) = touched_ring(RING_ENTRIES, Entry::State(*initial));
+        let (ring, entries) = touched_ring(RING_ENTRIES, ToRecord::State(*initial));
         let (view, views) = touched_ring(VIEW_OUTPUTS, (Outputs::default(), Attitude::default()));
         let failed = Arc::new(AtomicBool::new(false));
         let done = Arc::new(AtomicBool::new(false));
@@ -107,7 +106,7 @@ impl Recording {
     }
 
     /// Hands an entry over. Never waits, never drops.
-    pub fn put(&mut self, entry: Entry) {
+    pub fn put(&mut self, entry: ToRecord) {
         while let Some(waiting) = self.overflow.pop_front() {
             if let Err(PushError::Full(waiting)) = self.ring.push(waiting) {
                 self.overflow.push_front(waiting);
@@ -177,7 +176,7 @@ fn writer_died() -> LogError {
 /// The thread's end.
 struct Scribe {
     writer: Option<FlightWriter>,
-    entries: Consumer<Entry>,
+    entries: Consumer<ToRecord>,
     views: Consumer<(Outputs, Attitude)>,
     narrator: Narrator,
     mismatches: Receiver<Mismatch>,
@@ -252,7 +251,7 @@ impl Scribe {
             took.as_secs_f64()
         );
         let (what, ms) = (Happening::WriterHeldUp, took.as_millis() as u64);
-        let written = writer.happened(self.tick, what, ms, Level::Warn, &words);
+        let written = writer.happened(self.tick, what, ms, &words);
         self.keep(written);
     }
 
@@ -263,36 +262,36 @@ impl Scribe {
             "self-check: tick {tick}, reflown in flight, was not the same: {fields} numbers of the \
              state, first {path}"
         );
-        writer.happened(*tick, Happening::SelfCheck, *fields, Level::Error, &words)
+        writer.happened(*tick, Happening::SelfCheck, *fields, &words)
     }
 
-    fn write(&mut self, entry: &Entry) -> Result<(), LogError> {
+    fn write(&mut self, entry: &ToRecord) -> Result<(), LogError> {
         let Some(writer) = self.writer.as_mut() else { return Ok(()) };
         match entry {
-            Entry::Event(event) => {
+            ToRecord::Event(event) => {
                 writer.event(event)?;
                 self.narrator.event(writer, event)
             }
-            Entry::Inputs(inputs) => {
+            ToRecord::Inputs(inputs) => {
                 writer.inputs(inputs)?;
                 self.narrator.inputs(writer, inputs)
             }
-            Entry::State(state) => {
+            ToRecord::State(state) => {
                 self.tick = state.tick;
                 writer.state(state)?;
                 self.narrator.state(writer, state)
             }
-            Entry::Timing(timing) => writer.timing(timing),
-            Entry::Phase(tick, number, name) => {
-                writer.happened(*tick, Happening::Phase, *number, Level::Info, name)
+            ToRecord::Timing(timing) => writer.timing(timing),
+            ToRecord::Phase(tick, number, name) => {
+                writer.happened(*tick, Happening::Phase, *number, name)
             }
-            Entry::Landed(tick, reason) => {
+            ToRecord::Landed(tick, reason) => {
                 let words = match reason {
                     0 => "end of the flight",
                     1 => "ended by the crew",
                     _ => "ended by a signal",
                 };
-                writer.happened(*tick, Happening::Landed, *reason, Level::Info, words)
+                writer.happened(*tick, Happening::Landed, *reason, words)
             }
         }
     }

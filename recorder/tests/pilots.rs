@@ -2,17 +2,16 @@
 //! differently from the one they learned on.
 
 use engine::aircraft::Params;
-use engine::inputs::failures;
-use engine::math::{PI, max, min};
-use engine::outputs::validity;
+use engine::inputs::Failures;
+use engine::math::{max, min};
+use engine::outputs::Validity;
 use engine::start::Start;
+use engine::units::{DEGREE_RAD as DEG, KNOT_MPS, RPM_RADPS as RPM};
 use engine::{Aircraft, Outputs, State};
-use recorder::pilots::corridor::{self, KNOT_MPS};
+use recorder::pilots::corridor;
 use recorder::pilots::{PILOTS, Pilot};
-use recorder::{Flight, Hands, Moment, Progress, Reach, fly, rehearse};
+use recorder::{Flight, Hands, Progress, Reach, RehearsedTick, fly, rehearse};
 
-const DEG: f64 = PI / 180.0;
-const RPM: f64 = PI / 30.0;
 const TICKS_PER_S: u64 = 250;
 
 /// Greatest sink rate at touchdown that the gear was designed for, m/s: 10 ft/s (TM X-62,407 §10.6).
@@ -83,7 +82,7 @@ struct Story {
     load_factor: f64,
     leg_n: f64,
     bank_rad: f64,
-    outside: u64,
+    outside: Validity,
     end: Outputs,
 }
 
@@ -97,7 +96,7 @@ impl Story {
         story
     }
 
-    fn see(&mut self, now: &Moment<'_>) {
+    fn see(&mut self, now: &RehearsedTick<'_>) {
         let (state, seen) = (now.state, now.outputs);
         if self.phases.last() != Some(&now.phase) {
             self.phases.push(now.phase);
@@ -145,7 +144,7 @@ impl Story {
         let off_m =
             (end.position_m.x * end.position_m.x + end.position_m.y * end.position_m.y).sqrt();
         let broken =
-            validity::GEAR_BOTTOMED | validity::HULL | validity::FROZEN | validity::TUMBLING;
+            Validity::GEAR_BOTTOMED | Validity::HULL | Validity::FROZEN | Validity::TUMBLING;
         let seconds = end.tick as f64 * engine::STEP_S;
         let limits = [
             ("nacelles, deg", self.nacelles_rad / DEG, 89.9, 90.1),
@@ -162,7 +161,7 @@ impl Story {
             ("off the spot, m", off_m, 0.0, 5.0),
             ("nacelles at the end, deg", end.actuators.mast_tilt_rad.mean() / DEG, -0.1, 0.5),
             ("gear at the end", end.actuators.gear_extension_norm, 0.999, 1.0),
-            ("broken", (self.outside & broken) as f64, 0.0, 0.0),
+            ("broken", (self.outside & broken).bits() as f64, 0.0, 0.0),
             ("stands still", f64::from(u8::from(self.stands_still())), 1.0, 1.0),
             ("length, s", seconds, 120.0, 300.0),
         ];
@@ -185,7 +184,7 @@ fn the_demonstration_takes_off_converts_turns_reconverts_and_lands_where_it_bega
     let story = Story::of(&xv15(), &calm(), "demo", 400);
     assert_the_papers_flight(&story, "calm");
     assert_eq!((story.lift_offs, story.touchdowns, story.end.cockpit.markers), (1, 1, 1));
-    assert_eq!(story.outside, 0, "no moment beyond the model's validity");
+    assert_eq!(story.outside, Validity::empty(), "no moment beyond the model's validity");
     assert!(story.corridor_mps > 5.0 * KNOT_MPS, "{} m/s", story.corridor_mps);
     // The reserve sink rate would load a leg with 3.1 times its share; standing, a main leg bears 0.43.
     let weight_n = story.end.balance.mass_kg * engine::GRAVITY_MPS2;
@@ -315,7 +314,7 @@ fn whatever_it_begins_in_the_land_pilot_lands() {
 /// A failure during a flight.
 struct Fails {
     at_s: f64,
-    failures: u64,
+    failures: Failures,
 }
 
 impl Hands for Fails {
@@ -329,19 +328,19 @@ impl Hands for Fails {
 #[test]
 fn the_demonstration_ends_on_the_ground_with_engines_that_stop() {
     let xv15 = xv15();
-    let both = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
-    let cases = [(100.0, failures::ENGINE_RIGHT), (60.0, failures::ENGINE_LEFT), (100.0, both)];
+    let both = Failures::ENGINES;
+    let cases = [(100.0, Failures::ENGINE_RIGHT), (60.0, Failures::ENGINE_LEFT), (100.0, both)];
     let some = if cfg!(debug_assertions) { &cases[..1] } else { &cases[..] };
     for &(at_s, failures) in some {
         let mut hands = pilot("demo", &xv15);
         hands.push(Box::new(Fails { at_s, failures }));
         let (state, seen) =
             rehearse(&xv15, &calm(), hands, 600 * TICKS_PER_S, |_| {}).expect("a flight");
-        let when = format!("failures {failures} at {at_s} s");
+        let when = format!("{failures} stopped at {at_s} s");
         assert!(state.tick < 600 * TICKS_PER_S, "{when}: it never ended");
         assert!(seen.height_above_ground_m < 5.0, "{when}: {} m", seen.height_above_ground_m);
         assert!(seen.velocity_mps.norm() < 0.5, "{when}: {} m/s", seen.velocity_mps.norm());
-        assert!(seen.validity & validity::HULL == 0, "{when}: a wreck");
+        assert!(!seen.validity.contains(Validity::HULL), "{when}: a wreck");
     }
 }
 

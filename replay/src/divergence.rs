@@ -167,30 +167,18 @@ fn moves(map: &Cockpit, event: &DeviceEvent) -> String {
     let Some(device) = usize::try_from(event.device).ok().and_then(|at| map.device.get(at)) else {
         return String::new();
     };
-    let controls: Vec<String> = match EventKind::from_u64(event.kind) {
+    let controls: Vec<&str> = match EventKind::from_u64(event.kind) {
         Some(EventKind::Axis) => {
             let axes = device.axis.iter().filter(|axis| axis.code == event.code);
-            axes.map(|axis| words(&format!("{:?}", axis.control))).collect()
+            axes.map(|axis| axis.control.facts().words).collect()
         }
         Some(EventKind::Button) => {
             let buttons = device.button.iter().filter(|button| button.code == event.code);
-            buttons.map(|button| words(&format!("{:?}", button.control))).collect()
+            buttons.map(|button| button.control.facts().words).collect()
         }
         _ => Vec::new(),
     };
     controls.join(", ")
-}
-
-/// `StickAft` as people write it.
-fn words(name: &str) -> String {
-    let mut words = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !words.is_empty() {
-            words.push(' ');
-        }
-        words.extend(letter.to_lowercase());
-    }
-    words
 }
 
 /// The states after the first tick that differs, as messages.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use engine::{Inputs, Outputs, State, observe, step};
 use logs::records::{EventRecord, Happening};
-use logs::view::{Level, Remark};
+use logs::view::Remark;
 use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Setup, Tick};
 
 use crate::refly::{ReplayError, read};
@@ -151,7 +151,7 @@ fn crew_said(
     for (event, remark) in happenings.iter().zip(&remarks) {
         if let Some(what @ (Happening::Phase | Happening::Landed)) = Happening::from_u64(event.kind)
         {
-            writer.happened(event.tick, what, event.value, Level::Info, &remark.words)?;
+            writer.happened(event.tick, what, event.value, &remark.words)?;
         }
     }
     Ok(())

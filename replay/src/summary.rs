@@ -4,7 +4,8 @@
 use std::fmt;
 use std::path::Path;
 
-use engine::math::{PI, max, sqrt, square};
+use engine::math::{max, sqrt, square};
+use engine::units::{DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RPM_PER_RADPS};
 use engine::{Outputs, STEP_S, State};
 use logs::FlightReader;
 use logs::view::Remark;
@@ -15,10 +16,6 @@ use crate::refly::{Reflight, ReplayError, Window};
 /// Names of the extremes, their units, and how they are read off.
 type Reading = (&'static str, &'static str, fn(&Outputs) -> f64);
 
-const DEG: f64 = 180.0 / PI;
-const KT: f64 = 3600.0 / 1852.0;
-const FPM: f64 = 60.0 / 0.3048;
-
 const READINGS: [Reading; 11] = [
     ("height", "m", |o| o.height_above_ground_m),
     ("true airspeed", "kt", |o| o.airspeed_mps * KT),
@@ -28,7 +25,7 @@ const READINGS: [Reading; 11] = [
     ("pitch", "deg", |o| o.euler.pitch_rad * DEG),
     ("yaw rate", "deg/s", |o| o.angular_rate_radps.z * DEG),
     ("nacelle", "deg", |o| 90.0 - o.actuators.mast_tilt_rad.mean() * DEG),
-    ("rotor speed", "rpm", |o| o.rotor_speed_radps * 30.0 / PI),
+    ("rotor speed", "rpm", |o| o.rotor_speed_radps * RPM_PER_RADPS),
     ("power", "kW", |o| o.engines.power_w.sum() * 1e-3),
     ("flapping", "deg", |o| {
         let tilt = o.rotors.map(|r| sqrt(square(r.tilt_aft_rad) + square(r.tilt_outboard_rad)));

@@ -126,13 +126,7 @@ impl fmt::Display for InputChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Device { event, moves } => {
-                let kind = match EventKind::from_u64(event.kind) {
-                    Some(EventKind::Axis) => "axis",
-                    Some(EventKind::Button) => "button",
-                    Some(EventKind::Connected) => "connected",
-                    Some(EventKind::Disconnected) => "disconnected",
-                    None => "event",
-                };
+                let kind = EventKind::from_u64(event.kind).map_or("event", |kind| kind.facts().key);
                 let DeviceEvent { device, code, value, .. } = event;
                 write!(f, "device {device} {kind} 0x{code:x} = {value}")?;
                 if !moves.is_empty() {

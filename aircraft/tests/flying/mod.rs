@@ -3,14 +3,13 @@
 
 use engine::aircraft::Params;
 use engine::frames::{Attitude, Euler, Vec3};
-use engine::inputs::{DeviceEvent, EventKind, World};
+use engine::inputs::{DeviceEvent, EventKind, Failures, World};
 use engine::math::{FRAC_PI_2, PI, cos, sin};
 use engine::pair::Pair;
 use engine::symmetry::Mirror;
+pub use engine::units::DEGREE_RAD as DEG;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 
-pub const DEG: f64 = PI / 180.0;
-pub const RPM: f64 = PI / 30.0;
 pub const TICKS_PER_S: u64 = 250;
 
 /// The XV-15 with the built-in pilots' cockpit map.
@@ -174,7 +173,7 @@ impl Chance {
             world.ground_height_m = self.between(-20.0, 20.0);
         }
         if self.one_in(500) {
-            world.failures ^= 1 << self.of(6);
+            world.failures ^= Failures::FACTS[self.of(6) as usize].flag;
         }
         world
     }
@@ -268,20 +267,20 @@ pub fn rotors_stopped(state: &State) -> State {
     state
 }
 
-/// Kinetic and potential energy of the rigid body, and what struts and treads store, J.
+/// Kinetic and potential energy of the rigid body, and what struts and tyres store, J.
 pub fn energy_j(xv15: &Aircraft, state: &State, outputs: &Outputs) -> f64 {
     let gear = &xv15.landing_gear;
     let legs = &outputs.landing_gear;
     let spring_j =
         |stiffness_n_per_m: f64, strain_m: f64| 0.5 * stiffness_n_per_m * strain_m * strain_m;
-    let treads = &state.plant.treads;
-    let treads_j = [treads.nose, treads.main.left, treads.main.right].map(|tread| {
-        spring_j(gear.tread_stiffness_n_per_m, tread.forward_m)
-            + spring_j(gear.tread_stiffness_n_per_m, tread.right_m)
+    let tyres = &state.plant.tyre_deflections;
+    let tyres_j = [tyres.nose, tyres.main.left, tyres.main.right].map(|tyre| {
+        spring_j(gear.tyre_stiffness_n_per_m, tyre.forward_m)
+            + spring_j(gear.tyre_stiffness_n_per_m, tyre.right_m)
     });
     let stored_j = spring_j(gear.nose.stiffness_n_per_m, legs.nose.compression_m)
         + legs.main.map(|leg| spring_j(gear.main.stiffness_n_per_m, leg.compression_m)).sum()
-        + treads_j.iter().sum::<f64>();
+        + tyres_j.iter().sum::<f64>();
     let plant = &state.plant;
     let (v, w) = (plant.velocity_mps, plant.angular_rate_radps);
     let balance = &outputs.balance;
@@ -291,7 +290,7 @@ pub fn energy_j(xv15: &Aircraft, state: &State, outputs: &Outputs) -> f64 {
 
 /// Angular momentum of the rigid body, I·ω.
 pub fn turning(
-    inertia: engine::weight_balance::Inertia,
+    inertia: engine::inertia::Inertia,
     w: Vec3<engine::frames::Body>,
 ) -> Vec3<engine::frames::Body> {
     Vec3::new(

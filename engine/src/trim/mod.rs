@@ -26,7 +26,7 @@ use alloc::boxed::Box;
 use alloc::string::String;
 
 use crate::frames::Vec3;
-use crate::inputs::{World, failures};
+use crate::inputs::{Failures, World};
 use crate::math::{PI, clamp, cos, max, sin, square};
 use crate::state::{Geodetic, State};
 use crate::{Aircraft, Outputs};
@@ -110,11 +110,10 @@ impl Default for Target {
 
 impl Target {
     fn is_symmetric(&self) -> bool {
-        let engines = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
-        let failed = self.world.failures & engines;
+        let failed = self.world.failures & Failures::ENGINES;
         self.turn_radps == 0.0
             && self.sideslip_rad == 0.0
-            && (failed == 0 || failed == engines)
+            && (failed.is_empty() || failed == Failures::ENGINES)
             && self.world.wind_mps == Vec3::zero()
     }
 }

@@ -7,7 +7,7 @@ use super::inner::{accelerations, inner_states, numbers, set_numbers, settle};
 use super::{Failure, Power, Target, Trim, Unlimited};
 use crate::fcc::{governor, mixer, scas};
 use crate::frames::{Attitude, Body, Euler, Ned, Vec3};
-use crate::inputs::failures;
+use crate::inputs::Failures;
 use crate::math::{asin, atan2, clamp, cos, max, sin, sqrt, square};
 use crate::pair::Pair;
 use crate::state::State;
@@ -80,8 +80,8 @@ impl<'a> Problem<'a> {
             equations.extend([5, 6, 7]);
         }
         let running = Pair {
-            left: !target.world.failed(failures::ENGINE_LEFT),
-            right: !target.world.failed(failures::ENGINE_RIGHT),
+            left: !target.world.failed(Failures::ENGINE_LEFT),
+            right: !target.world.failed(Failures::ENGINE_RIGHT),
         };
         let torque_n_m_max = *torque_n_m_max;
         Ok(Self {
@@ -239,9 +239,9 @@ impl<'a> Problem<'a> {
         };
         let world = &self.target.world;
         let on = scas::Axes {
-            pitch: pilot.scas_on != 0 && !world.failed(failures::SCAS_PITCH),
-            roll: pilot.scas_on != 0 && !world.failed(failures::SCAS_ROLL),
-            yaw: pilot.scas_on != 0 && !world.failed(failures::SCAS_YAW),
+            pitch: pilot.scas_on != 0 && !world.failed(Failures::SCAS_PITCH),
+            roll: pilot.scas_on != 0 && !world.failed(Failures::SCAS_ROLL),
+            yaw: pilot.scas_on != 0 && !world.failed(Failures::SCAS_YAW),
         };
         let (_, augmented) = scas::update(&aircraft.fcc.scas, &centred, &sticks, on, &sensed);
         let commands = mixer::mix(&aircraft.fcc.mixer, &augmented, collective_rad, &pilot, &sensed);

@@ -5,9 +5,7 @@
 //! their masts bend too much.
 
 use engine::math::FRAC_PI_2;
-
-/// One knot, m/s.
-pub const KNOT_MPS: f64 = 1852.0 / 3600.0;
+use engine::units::KNOT_MPS;
 
 /// Nacelle incidence, deg, and the fastest airspeed there, kt.
 const FASTEST: [(f64, f64); 8] = [

@@ -11,7 +11,7 @@ mod skill;
 
 use engine::cockpit::{self, AxisControl};
 use engine::frames::{Ned, Vec3};
-use engine::outputs::validity;
+use engine::outputs::Validity;
 use engine::{Outputs, STEP_S};
 
 pub use device::{DEVICE, VirtualDevice};
@@ -146,7 +146,7 @@ impl Pilot {
         let eyes = Eyes::look(seen);
         self.flown |= seen.height_above_ground_m > FLOWN_M;
         let landing = |phase: &(&str, Phase)| phase.1 == Phase::Land;
-        let down = eyes.on_wheels_norm > 0.7 || seen.validity & validity::HULL != 0;
+        let down = eyes.on_wheels_norm > 0.7 || seen.validity.contains(Validity::HULL);
         if !(self.flown && down) || self.phases.get(self.at).is_none_or(landing) {
             return;
         }

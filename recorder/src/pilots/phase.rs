@@ -3,9 +3,10 @@
 use engine::cockpit::ButtonControl;
 use engine::frames::{Ned, Vec3};
 use engine::math::{FRAC_PI_2, atan2, clamp, cos, max, min, sin, sqrt, wrap_angle};
+use engine::units::KNOT_MPS;
 use engine::{Outputs, STEP_S};
 
-use super::corridor::{KNOT_MPS, fastest_mps, slowest_mps};
+use super::corridor::{fastest_mps, slowest_mps};
 use super::skill::{Aim, Eyes, HAND_S, Positions};
 use super::{Pilot, bearing};
 use crate::hands::Reach;

@@ -211,10 +211,10 @@ pub fn send_still_life(recording: &RecordingStream, look: &Look) -> RecordingStr
                 .with_widths([plot.width + look.line_width]),
         )?;
     }
-    for mode in MODES {
+    for mode in MODES.iter() {
         let (values, colours): (Vec<&str>, Vec<u32>) = mode.values.iter().copied().unzip();
         recording.log_static(
-            entity(mode.path),
+            entity(&mode.path),
             &StateConfiguration::new().with_values(values).with_colors(colours),
         )?;
     }

@@ -132,13 +132,13 @@ impl Track {
     /// Writes the modes that changed.
     fn show_modes(&mut self, canvas: &mut Canvas, outputs: &Outputs) {
         for (index, mode) in MODES.iter().enumerate() {
-            let value = (mode.of)(outputs);
+            let value = mode.of(outputs);
             if self.modes[index] == Some(value) {
                 continue;
             }
             self.modes[index] = Some(value);
             let columns = StateChange::single(value).columns_of_unit_batches().map(Vec::from_iter);
-            canvas.send(&self.entity(mode.path), &times(&[outputs.tick]), columns);
+            canvas.send(&self.entity(&mode.path), &times(&[outputs.tick]), columns);
         }
     }
 
