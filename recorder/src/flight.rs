@@ -1,17 +1,13 @@
-//! A flight from its beginning to its landing.
+//! A flight to be flown.
 
 use std::path::PathBuf;
 
 use engine::Aircraft;
 use engine::start::Start;
-use engine::step;
 use flightgear::Link;
 use logs::{Identity, LogError, Setup};
 
 use crate::hands::Hands;
-use crate::landing::Landing;
-use crate::live::Live;
-use crate::progress::Progress;
 
 /// A flight to be flown.
 pub struct Flight {
@@ -55,22 +51,16 @@ pub enum FlyError {
     Trim(#[from] engine::trim::Failure),
 }
 
-/// Flies until the hands are done, the time is up, or `progress.stop` is set.
-///
-/// # Errors
-/// When the log cannot be begun, or the flight. What goes wrong later is in the [`Landing`].
-pub fn fly(flight: Flight, progress: &Progress) -> Result<Landing, FlyError> {
-    Ok(Live::begin(flight, progress, step)?.fly())
-}
-
 #[cfg(test)]
 mod tests {
-    use engine::{Inputs, Outputs, State};
+    use engine::{Inputs, Outputs, State, step};
     use logs::FlightReader;
     use logs::records::Happening;
 
     use super::*;
-    use crate::progress::Snapshot;
+    use crate::landing::Landing;
+    use crate::live::Live;
+    use crate::progress::{Progress, Snapshot};
 
     /// Two seconds on the ground by a loop whose step flips a bit of the state after `upset_tick`, as
     /// failing memory would; returns the log and what the crew saw.

@@ -21,9 +21,10 @@ pub mod sticks;
 pub mod writer;
 
 pub use clock::Pace;
-pub use flight::{Flight, FlyError, fly};
+pub use flight::{Flight, FlyError};
 pub use hands::{Hands, Reach};
 pub use landing::Landing;
+pub use live::fly;
 pub use progress::{Progress, Snapshot};
 pub use rehearsal::{RehearsedTick, rehearse};
 pub use self_check::{Checked, Mismatch};

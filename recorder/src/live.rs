@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc;
 
 use engine::inputs::DeviceEvent;
-use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe};
+use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
 use flightgear::Link;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity};
@@ -27,6 +27,14 @@ const EVENTS_A_TICK: usize = 1024;
 
 /// Number and name of a phase of the flight.
 type Phase = (u64, &'static str);
+
+/// Flies until the hands are done, the time is up, or `progress.stop` is set.
+///
+/// # Errors
+/// When the log cannot be begun, or the flight. What goes wrong later is in the [`Landing`].
+pub fn fly(flight: Flight, progress: &Progress) -> Result<Landing, FlyError> {
+    Ok(Live::begin(flight, progress, step)?.fly())
+}
 
 /// A flight being flown by `S`, which is [`engine::step()`] but for tests of what happens when a step
 /// goes wrong.
