@@ -29,7 +29,6 @@ const KNOWN_CIRCLES: &[(&str, &[&str])] = &[
     ("logs", &["records", "view"]),
     ("logs", &["export", "export::csv", "export::flights", "export::parquet"]),
     ("recorder", &["pilots", "pilots::phase"]),
-    ("replay", &["divergence", "growth"]),
     ("replay", &["refly", "versions"]),
     (
         "replay",

@@ -20,6 +20,7 @@ mod reader;
 pub mod records;
 mod recover;
 mod setup;
+pub mod text;
 pub mod view;
 mod writer;
 
