@@ -53,11 +53,14 @@ const SHARED: &[&str] = &[
     "frames",
     "inertia",
     "inputs",
+    "isa",
+    "listing",
     "math",
     "motion",
     "pair",
     "struts",
     "table",
+    "units",
 ];
 
 /// What a block is asked by: a sampled one by `update`, one that gives loads or rates by `evaluate`.
