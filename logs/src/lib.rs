@@ -14,6 +14,7 @@ pub mod compact;
 mod container;
 mod error;
 pub mod export;
+mod level;
 mod narrator;
 mod open;
 mod reader;
