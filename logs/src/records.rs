@@ -4,7 +4,7 @@ use engine::State;
 use engine::inputs::World;
 use serde::{Deserialize, Serialize};
 
-use crate::view::Level;
+use crate::level::Level;
 
 pub use crate::container::time_ns;
 
