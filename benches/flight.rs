@@ -30,8 +30,9 @@ const TICKS: u64 = 15_000;
 const LONG_TICKS: u64 = 150_000;
 
 fn ready() -> (Aircraft, Start) {
-    let mut aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("our own file");
-    aircraft.cockpit = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).expect("our own file");
+    let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).expect("our own file");
+    let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("our own file");
+    let aircraft = aircraft.with_cockpit(map);
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).expect("our own file");
     (aircraft, start)
 }

@@ -117,11 +117,12 @@ impl Condition {
     /// The aircraft, as heavy as asked for, and the flight.
     pub fn read(&self) -> Result<(Aircraft, Target)> {
         let (name, text) = fly::text_or(self.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;
-        let mut aircraft = aircraft::aircraft(&name, &text)?;
+        let aircraft = aircraft::aircraft(&name, &text)?;
         if !(self.nacelle.is_finite() && (-1.0..=96.0).contains(&self.nacelle)) {
             bail!("--nacelle {}: expected 0 (aeroplane) to 95 deg", self.nacelle);
         }
         let airspeed_mps = self.speed_kt * KNOT_MPS;
+        let (aircraft, fuel_kg) = weigh(aircraft, self.weight_lb * POUND_KG)?;
         let target = Target {
             mast_tilt_rad: (90.0 - self.nacelle) / DEG,
             airspeed_mps,
@@ -132,7 +133,7 @@ impl Condition {
             turn_radps: self.turn_radps(airspeed_mps)?,
             sideslip_rad: self.sideslip_deg / DEG,
             altitude_m: self.altitude_ft * FOOT_M,
-            fuel_kg: weigh(&mut aircraft, self.weight_lb * POUND_KG)?,
+            fuel_kg,
             flap_detent: flap_detent(&aircraft, self.flap, self.nacelle)?,
             rpm_select: rpm_select(&aircraft, self.rpm, self.nacelle)?,
             gear_down: u64::from(self.gear),
@@ -156,18 +157,19 @@ impl Condition {
     }
 }
 
-/// Makes the aircraft weigh so much: by its fuel where that can, by its empty mass otherwise. Gives
-/// the fuel.
-pub fn weigh(aircraft: &mut Aircraft, mass_kg: f64) -> Result<f64> {
-    let weights = &mut aircraft.weight_balance;
+/// The aircraft at a gross mass, and its fuel in kg: by the fuel where that can be, by the empty mass
+/// otherwise.
+pub fn weigh(aircraft: Aircraft, mass_kg: f64) -> Result<(Aircraft, f64)> {
+    let weights = &aircraft.weight_balance;
     let fuel_kg = mass_kg - weights.zero_fuel_mass_kg;
     if fuel_kg > 0.0 && fuel_kg <= weights.fuel_kg_max + 1.0 {
-        return Ok(fuel_kg);
+        return Ok((aircraft, fuel_kg));
     }
     let fuel_kg = min(0.5 * weights.fuel_kg_max, 0.1 * mass_kg);
-    weights.zero_fuel_mass_kg = mass_kg - fuel_kg;
     if mass_kg.is_finite() && mass_kg > 1000.0 && mass_kg < 20_000.0 {
-        Ok(fuel_kg)
+        let zero_fuel_mass_kg = mass_kg - fuel_kg;
+        let loaded = aircraft.with(|a| a.weight_balance.zero_fuel_mass_kg = zero_fuel_mass_kg);
+        Ok((loaded, fuel_kg))
     } else {
         Err(anyhow::anyhow!("{:.0} lb", mass_kg / POUND_KG))
             .context("no weight of such an aircraft")

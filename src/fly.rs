@@ -231,7 +231,8 @@ impl Plan {
     /// The cockpit map as flown.
     pub fn set_map(&mut self, map: cockpit::Params) -> Result<()> {
         self.flight.setup.cockpit_toml = toml::to_string(&map)?;
-        self.flight.aircraft.cockpit = map;
+        let aircraft = self.flight.aircraft.clone();
+        self.flight.aircraft = aircraft.with_cockpit(map);
         Ok(())
     }
 

@@ -281,9 +281,10 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
 /// The aircraft of a log, for compacted ones.
 fn flown(setup: &logs::Setup) -> Result<logs::compact::Flown, LogError> {
     let refused = |error: aircraft::ConfigError| LogError::NotAFlight(error.to_string());
-    let mut aircraft =
-        aircraft::aircraft("aircraft.toml", &setup.aircraft_toml).map_err(refused)?;
-    aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml).map_err(refused)?;
+    let map = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml).map_err(refused)?;
+    let aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)
+        .map_err(refused)?
+        .with_cockpit(map);
     let start = aircraft::start("scenario.toml", &setup.scenario_toml).map_err(refused)?;
     Ok(logs::compact::Flown { aircraft, world: start.world.world() })
 }
@@ -387,10 +388,9 @@ fn no_scenario_breaks_its_reader_and_what_it_accepts_can_be_flown() {
 
 #[test]
 fn no_cockpit_map_and_no_device_event_breaks_the_cockpit() {
-    let mut xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15");
+    let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15");
     let state = start(SCENARIO).expect("ours").state(&xv15).expect("a state");
     let seed = format!("{STICK_MAP}\n{}", aircraft::PILOT_MAP);
-    let maps = std::cell::RefCell::new(&mut xv15);
     fuzz(
         "cockpit",
         1500,
@@ -398,8 +398,7 @@ fn no_cockpit_map_and_no_device_event_breaks_the_cockpit() {
         |bytes| {
             let text = String::from_utf8_lossy(bytes);
             let Ok(map) = aircraft::cockpit("fuzz.toml", &text) else { return };
-            let mut aircraft = maps.borrow_mut();
-            aircraft.cockpit = map;
+            let aircraft = xv15.clone().with_cockpit(map);
             let mut dice = Dice(bytes.len() as u64);
             let mut odd =
                 || [0, 1, 2, u64::MAX, 1 << 63, dice.below(u64::MAX)][dice.below(6) as usize];

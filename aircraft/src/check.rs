@@ -105,7 +105,7 @@ fn within(file: &str, node: &Node, (min, max): (f64, f64)) -> Result<(), ConfigE
 pub(crate) fn aircraft(
     file: &str,
     tree: &Node,
-    aircraft: &engine::Aircraft,
+    aircraft: &engine::aircraft::Params,
 ) -> Result<(), ConfigError> {
     if let Some((name, expected)) = aircraft.fault() {
         return Err(error(file, find(tree, name), Problem::BadTable(expected)));

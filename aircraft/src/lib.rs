@@ -43,9 +43,9 @@ pub const DEFAULT_SCENARIO: &str = include_str!("../scenario/default.toml");
 pub fn aircraft(file_name: &str, text: &str) -> Result<engine::Aircraft, ConfigError> {
     let tree = tree::parse(file_name, text, Numbers::Sourced)?.0;
     check::ranges(file_name, &tree)?;
-    let aircraft = read::read(file_name, &tree)?;
-    check::aircraft(file_name, &tree, &aircraft)?;
-    Ok(aircraft)
+    let params = read::read(file_name, &tree)?;
+    check::aircraft(file_name, &tree, &params)?;
+    Ok(engine::Aircraft::new(params))
 }
 
 /// Reads a cockpit map.

@@ -102,7 +102,7 @@ fn val_coefficients_at_tabulated_points_are_the_printed_ones() {
 /// mast tilt sin³30°, an eighth; nothing as an aeroplane, all of it upright.
 #[test]
 fn the_pylons_drag_goes_with_how_far_they_stand_across_the_flow() {
-    let drag = xv15().wing_pylon.drag;
+    let drag = xv15().wing_pylon.drag.clone();
     let cd = |tilt: f64| drag.drag_at(tilt * DEG, Flap::new(20.0 * DEG), 0.1, 0.0);
     let (upright, level) = (0.30, 0.072);
     reads(cd(0.0), upright);

@@ -15,7 +15,7 @@ const OARF_RPM: f64 = 768.0 / 12.5 * 30.0 / PI;
 /// The rotor alone, as it is tested.
 fn xv15() -> Params {
     let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|e| panic!("{e}"));
-    let mut alone = xv15.rotors;
+    let mut alone = xv15.rotors.clone();
     alone.inflow.recirculation = 0.0;
     alone
 }

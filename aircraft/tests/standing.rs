@@ -32,9 +32,8 @@ const GAIN_J: f64 = 1.0;
 /// Friction may take energy only: rolling and sliding from 20 m/s, the speed never rises.
 #[test]
 fn wheels_never_speed_the_aircraft_up() {
-    let mut xv15 = xv15();
     // Without rotors and air nothing but the ground acts along it.
-    flying::in_vacuum(&mut xv15);
+    let xv15 = xv15().with(flying::in_vacuum);
     for (brake, sideways_mps) in [(0, 0.0), (1, 0.0), (0, 8.0), (1, 8.0)] {
         let mut state = flying::rotors_stopped(&parked(&xv15));
         state.cockpit.parking_brake = brake;

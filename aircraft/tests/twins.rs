@@ -10,9 +10,9 @@ use flying::{
 
 /// A body without air around it, its integration already under way.
 fn falling(turn: Vec3<engine::frames::Body>) -> (engine::Aircraft, State) {
-    let mut xv15 = xv15();
+    let xv15 = xv15();
     let parked = parked(&xv15);
-    in_vacuum(&mut xv15);
+    let xv15 = xv15.with(in_vacuum);
     let mut state = rotors_stopped(&aloft(&parked, 0.0, 30.0));
     state.cockpit.collective_norm = 0.0;
     state.actuators.lever_norm = 0.0;

@@ -37,7 +37,7 @@ fn numbers_arrive_in_si() {
 
 #[test]
 fn tables_arrive_in_si() {
-    let mixer = xv15().fcc.mixer;
+    let mixer = xv15().fcc.mixer.clone();
     close(mixer.collective_per_lever_rad_per_m.at(0.0), 1.6 * DEG / 0.0254);
     close(mixer.collective_per_lever_rad_per_m.at(45.0 * DEG), 0.5 * (0.92 + 0.71) * DEG / 0.0254);
     close(

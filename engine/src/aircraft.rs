@@ -1,14 +1,63 @@
-//! The aircraft: the parameters of every block.
+//! The aircraft: the parameters of every block, and what is derived from them once.
+
+use core::ops::Deref;
 
 use serde::Deserialize;
 
 use crate::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
+use crate::rotors::blade;
 use crate::{actuators, cockpit, engines, fcc, landing_gear, rotors, weight_balance};
+
+/// A tilt-rotor that can be flown: its parameters, and what is derived from them.
+///
+/// The parameters are read through this type and changed by [`Aircraft::with`], which derives the rest
+/// anew: a derived value that no longer follows from its parameters cannot be written.
+#[derive(Clone, Debug)]
+pub struct Aircraft {
+    params: Params,
+    /// Both rotors' blade, by elements.
+    pub(crate) blade: blade::Blade,
+}
+
+impl Aircraft {
+    /// The aircraft of these parameters.
+    pub fn new(params: Params) -> Self {
+        Self { blade: params.rotors.blade(), params }
+    }
+
+    /// The same aircraft with parameters changed.
+    #[must_use]
+    pub fn with(self, change: impl FnOnce(&mut Params)) -> Self {
+        let mut params = self.params;
+        change(&mut params);
+        Self::new(params)
+    }
+
+    /// The same aircraft with another cockpit map.
+    #[must_use]
+    pub fn with_cockpit(self, cockpit: cockpit::Params) -> Self {
+        self.with(|params| params.cockpit = cockpit)
+    }
+}
+
+impl Deref for Aircraft {
+    type Target = Params;
+
+    fn deref(&self) -> &Params {
+        &self.params
+    }
+}
+
+impl PartialEq for Aircraft {
+    fn eq(&self, other: &Self) -> bool {
+        self.params == other.params
+    }
+}
 
 /// All that a tilt-rotor is. Another tilt-rotor is other numbers, not another program.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Aircraft {
+pub struct Params {
     /// What it is called.
     pub name: alloc::string::String,
     /// Devices and what they move. Comes from its own file.
@@ -38,7 +87,7 @@ pub struct Aircraft {
     pub landing_gear: landing_gear::Params,
 }
 
-impl Aircraft {
+impl Params {
     /// Where a table cannot be used, and why, if so.
     pub fn fault(&self) -> Option<(&'static str, &'static str)> {
         let mixer = &self.fcc.mixer;

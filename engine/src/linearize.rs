@@ -197,7 +197,7 @@ impl<'a> About<'a> {
     /// ẋ and y.
     fn evaluate(&self, x: &[f64], u: &[f64; INPUTS.len()]) -> (Vec<f64>, [f64; OUTPUTS.len()]) {
         let state = self.unpack(x, u);
-        let (next, outputs) = step::heading(self.aircraft, &state, self.world);
+        let (next, outputs) = step::derivatives(self.aircraft, &state, self.world);
         let body = accelerations(&state, &next);
         let euler = state.plant.attitude.euler();
         let turn = EulerRate::new(euler, state.plant.angular_rate_radps);

@@ -64,7 +64,7 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
 ///
 /// This is no flight. It is what trim and linearisation look at, where all parts are wanted at the
 /// same moment.
-pub fn heading(aircraft: &Aircraft, state: &State, world: &World) -> (State, Outputs) {
+pub fn derivatives(aircraft: &Aircraft, state: &State, world: &World) -> (State, Outputs) {
     let (environment, air) = weather(state, world);
     let sensed = sense(state, &air);
     let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
@@ -409,7 +409,6 @@ fn rotors(
         .zip(surfaces.mast_tilt_rate_radps)
         .zip(surfaces.collective_rad.zip(cyclic));
     let sides = Pair { left: -1.0, right: 1.0 };
-    let blade = aircraft.rotors.blade();
     state.plant.rotors.zip(motions.zip(controls.zip(sides))).map(
         |(rotor, (motion, (((mast_tilt_rad, mast_tilt_rate_radps), pitch), side)))| {
             let hub = aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad);
@@ -425,7 +424,7 @@ fn rotors(
                 cyclic_outboard_rad: pitch.1.1,
                 hub_height_m: height_above_ground_m - (*ned_from_body * hub).z,
             };
-            rotors::rotor(&aircraft.rotors, &blade, &rotor, &inputs)
+            rotors::rotor(&aircraft.rotors, &aircraft.blade, &rotor, &inputs)
         },
     )
 }

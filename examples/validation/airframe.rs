@@ -79,7 +79,7 @@ fn held(aircraft: &Aircraft, printed: &Printed) -> (Outputs, Outputs) {
     let followed = collective(thrust_n, |collective_rad| {
         state.actuators.collective_rad = Pair::both(collective_rad);
         settled = settle(aircraft, &state, &world, 400);
-        engine::step::heading(aircraft, &settled, &world).1
+        engine::step::derivatives(aircraft, &settled, &world).1
     });
     let mut forced = settled;
     for rotor in [&mut forced.plant.rotors.left, &mut forced.plant.rotors.right] {
@@ -87,7 +87,7 @@ fn held(aircraft: &Aircraft, printed: &Printed) -> (Outputs, Outputs) {
     }
     let forced = collective(thrust_n, |collective_rad| {
         forced.actuators.collective_rad = Pair::both(collective_rad);
-        engine::step::heading(aircraft, &forced, &world).1
+        engine::step::derivatives(aircraft, &forced, &world).1
     });
     (followed, forced)
 }

@@ -184,13 +184,13 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
 
 /// The aircraft of 1975: inertia and rotor speed in hover of NASA TM X-62,407, §3.1.3 and §6.
 fn of_1975(aircraft: &Aircraft) -> Aircraft {
-    let mut design = aircraft.clone();
-    let inertia = &mut design.weight_balance.inertia;
-    inertia.xx_kg_m2 = 42_400.0 * SLUG_FT2_KG_M2;
-    inertia.yy_kg_m2 = 14_300.0 * SLUG_FT2_KG_M2;
-    inertia.zz_kg_m2 = 49_500.0 * SLUG_FT2_KG_M2;
-    design.fcc.governor.rotor_speed_radps[0] = 565.0 * RPM_RADPS;
-    design
+    aircraft.clone().with(|design| {
+        let inertia = &mut design.weight_balance.inertia;
+        inertia.xx_kg_m2 = 42_400.0 * SLUG_FT2_KG_M2;
+        inertia.yy_kg_m2 = 14_300.0 * SLUG_FT2_KG_M2;
+        inertia.zz_kg_m2 = 49_500.0 * SLUG_FT2_KG_M2;
+        design.fcc.governor.rotor_speed_radps[0] = 565.0 * RPM_RADPS;
+    })
 }
 
 /// SCAS, 1 when on; then of pitch, roll and yaw attitude after 1 s per inch, damping, sensitivity.

@@ -43,9 +43,8 @@ fn travel_used(aircraft: &Aircraft, seen: &Outputs) -> f64 {
 }
 
 fn fly(aircraft: &Aircraft) -> Result<Conversion, String> {
-    let mut aircraft = aircraft.clone();
-    aircraft.cockpit =
-        aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).map_err(|e| e.to_string())?;
+    let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).map_err(|e| e.to_string())?;
+    let aircraft = aircraft.clone().with_cockpit(map);
     let scenario = format!(
         "{}\n[trim]\nmast_tilt_deg = 0.0\nairspeed_kt = 80.0\naltitude_ft = 500.0\nflap_detent = 1\n\
          scas_on = 1\n",

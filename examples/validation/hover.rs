@@ -29,15 +29,13 @@ impl Stand {
 /// The right rotor of an aircraft that is held in still air at sea level, far from the ground.
 fn on_stand(aircraft: &Aircraft, tip_mps: f64, collective_deg: f64) -> Stand {
     let world = World { ground_height_m: GROUND_FAR_BELOW_M, ..World::default() };
-    let mut aircraft = aircraft.clone();
     // On the stand there is no wing, and no other rotor.
-    aircraft.rotors.inflow.recirculation = 0.0;
-    let aircraft = &aircraft;
+    let aircraft = &aircraft.clone().with(|stand| stand.rotors.inflow.recirculation = 0.0);
     let mut state = State::default();
     state.plant.rotor_speed_radps = tip_mps / aircraft.rotors.radius_m;
     state.actuators.collective_rad = Pair::both(collective_deg / DEG);
     let settled = settle(aircraft, &state, &world, STAND_TICKS);
-    let (_, outputs) = engine::step::heading(aircraft, &settled, &world);
+    let (_, outputs) = engine::step::derivatives(aircraft, &settled, &world);
     let rotor = outputs.rotors.right;
     let area_m2 = PI * square(aircraft.rotors.radius_m);
     let disc_n = outputs.air.density_kg_per_m3 * area_m2 * square(tip_mps);

@@ -45,10 +45,10 @@ fn generate() -> Vec<(String, String)> {
 
 /// The aircraft at a weight in pounds, fuel and empty mass as for half-full tanks.
 fn weighing(aircraft: &Aircraft, weight_lb: f64) -> (Aircraft, f64) {
-    let mut aircraft = aircraft.clone();
     let fuel_kg = 0.5 * aircraft.weight_balance.fuel_kg_max;
-    aircraft.weight_balance.zero_fuel_mass_kg = weight_lb * book::POUND_KG - fuel_kg;
-    (aircraft, fuel_kg)
+    let zero_fuel_mass_kg = weight_lb * book::POUND_KG - fuel_kg;
+    let loaded = aircraft.clone().with(|a| a.weight_balance.zero_fuel_mass_kg = zero_fuel_mass_kg);
+    (loaded, fuel_kg)
 }
 
 fn main() -> std::io::Result<()> {

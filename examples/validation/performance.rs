@@ -175,8 +175,8 @@ pub fn autorotation(aircraft: &Aircraft, book: &mut Book) {
         "Class A: NASA TM-81244, about 3,100 ft/min.",
         "±15 %: \"about\". Both engines stopped, the governor set to 553 rpm.",
     );
-    let mut aircraft = aircraft.clone();
-    aircraft.fcc.governor.rotor_speed_radps[0] = 553.0 * RPM_RADPS;
+    let aircraft =
+        aircraft.clone().with(|a| a.fcc.governor.rotor_speed_radps[0] = 553.0 * RPM_RADPS);
     let world = World {
         ground_height_m: GROUND_FAR_BELOW_M,
         failures: failures::ENGINE_LEFT | failures::ENGINE_RIGHT,

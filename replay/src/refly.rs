@@ -83,8 +83,8 @@ pub fn flown(setup: &Setup) -> Result<Flown, LogError> {
 
 /// The aircraft of a log with its cockpit map, and the world at the start.
 pub(crate) fn read(setup: &Setup) -> Result<Flown, aircraft::ConfigError> {
-    let mut aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?;
-    aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+    let aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?
+        .with_cockpit(aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?);
     // A flight does not need it once it has begun, but a log whose scenario cannot be read is not
     // whole.
     let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
@@ -135,14 +135,15 @@ impl Reflight {
         let reader = FlightReader::open_across_versions(path)?;
         let mut notes = Vec::new();
         let setup = &reader.setup;
-        let mut aircraft = match aircraft::aircraft("aircraft.toml", &setup.aircraft_toml) {
+        let aircraft = match aircraft::aircraft("aircraft.toml", &setup.aircraft_toml) {
             Ok(aircraft) => aircraft,
             Err(error) => {
                 notes.push(format!("flown with this version's XV-15: the log's {error}"));
                 aircraft::aircraft("xv15.toml", aircraft::XV15)?
             }
         };
-        aircraft.cockpit = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?;
+        let aircraft =
+            aircraft.with_cockpit(aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?);
         let state = match aircraft::start("scenario.toml", &setup.scenario_toml) {
             Ok(start) => first_state(&reader, &aircraft, &start)?,
             Err(error) => {

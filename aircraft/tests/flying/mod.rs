@@ -1,6 +1,7 @@
 //! What the flight tests share: the aircraft, ways to begin, the bits of a state, and chance.
 #![allow(dead_code, reason = "every test crate takes its own part of it")]
 
+use engine::aircraft::Params;
 use engine::frames::{Attitude, Euler, Vec3};
 use engine::inputs::{DeviceEvent, EventKind, World};
 use engine::math::{FRAC_PI_2, PI, cos, sin};
@@ -14,11 +15,11 @@ pub const TICKS_PER_S: u64 = 250;
 
 /// The XV-15 with the built-in pilots' cockpit map.
 pub fn xv15() -> Aircraft {
-    let mut xv15 =
-        aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|e| panic!("{e}"));
-    xv15.cockpit =
+    let map =
         aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap_or_else(|e| panic!("{e}"));
-    xv15
+    aircraft::aircraft("xv15.toml", aircraft::XV15)
+        .unwrap_or_else(|e| panic!("{e}"))
+        .with_cockpit(map)
 }
 
 /// Standing on its wheels and facing north, brakes set, rotors at speed.
@@ -218,7 +219,7 @@ pub fn step_in_the_mirror(xv15: &Aircraft, state: &State, inputs: &Inputs) -> St
 }
 
 /// Takes the air away: no block but gravity, ground and inertia has anything to say.
-pub fn in_vacuum(xv15: &mut Aircraft) {
+pub fn in_vacuum(xv15: &mut Params) {
     xv15.rotors.blade.blade_chord_m.y.fill(0.0);
     xv15.rotors.flapping.hub_spring_n_m_per_rad = 0.0;
     // Blades that flap without air would trade energy with the body: they get next to no mass.

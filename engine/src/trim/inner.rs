@@ -45,7 +45,7 @@ pub fn settle(aircraft: &Aircraft, state: &State, world: &World, ticks: usize) -
     let inner = inner_states(&state.number_names());
     let mut state = *state;
     for _ in 0..ticks {
-        let next = numbers(&step::heading(aircraft, &state, world).0);
+        let next = numbers(&step::derivatives(aircraft, &state, world).0);
         set_numbers(&mut state, &inner, |i| next[inner[i]]);
     }
     state

@@ -9,7 +9,7 @@
 //! Unknown are pitch, stick, collective and engine power (or, with the lever given, the climb); in flight
 //! that is not symmetric roll, lateral stick and pedals too; and every inner state of the plant,
 //! whatever the blocks remember. Newton's method with central differences and a line search finds
-//! them together; [`step::heading`] says where a trial is heading.
+//! them together; [`step::derivatives`] says where a trial is heading.
 //!
 //! Lever, governor and SCAS follow from what was found: the lever that keeps the engines' power, the
 //! governor's correction that makes up the collective.
@@ -222,8 +222,7 @@ pub fn trim_near(aircraft: &Aircraft, target: &Target, near: &Trim) -> Result<Tr
 /// The engines give the torque that is needed: where that is too much is told afterwards.
 fn unlimited(aircraft: &Aircraft) -> Unlimited {
     let torque_n_m_max = aircraft.engines.torque_n_m_max;
-    let mut aircraft = aircraft.clone();
-    aircraft.engines.torque_n_m_max = 1e9;
+    let aircraft = aircraft.clone().with(|params| params.engines.torque_n_m_max = 1e9);
     Unlimited { aircraft, torque_n_m_max }
 }
 

@@ -153,7 +153,7 @@ impl Problem<'_> {
         };
         state.cockpit.collective_norm = lever_norm;
         self.set_controls(&mut state, trial[COLLECTIVE]);
-        let (next, outputs) = step::heading(aircraft, &state, world);
+        let (next, outputs) = step::derivatives(aircraft, &state, world);
         state.rate = next.rate;
         state.rate.motion.acceleration_mps2 =
             a_tick_before(next.rate.motion.acceleration_mps2, self.target.turn_radps);
@@ -174,7 +174,7 @@ impl Problem<'_> {
         let gains = |lever_norm: f64| {
             let mut at = *state;
             at.actuators.lever_norm = lever_norm;
-            let rate = step::heading(self.aircraft, &at, &self.target.world).0.rate.engines;
+            let rate = step::derivatives(self.aircraft, &at, &self.target.world).0.rate.engines;
             if self.running.right { rate.power_w_per_s.right } else { rate.power_w_per_s.left }
         };
         if !self.running.left && !self.running.right {

@@ -265,7 +265,7 @@ impl<'a> Problem<'a> {
         if let Power::Lever(lever_norm) = self.target.power {
             lever.actuators.lever_norm = lever_norm;
         }
-        let next = step::heading(self.aircraft, &lever, &self.target.world).0;
+        let next = step::derivatives(self.aircraft, &lever, &self.target.world).0;
         let accelerations = accelerations(&state, &next);
         let power = next.rate.engines.power_w_per_s;
         let power_w_per_s = if self.running.right { power.right } else { power.left };

@@ -315,7 +315,7 @@ fn growth_entity(number: usize) -> String {
 
 /// What can be observed of a state by itself.
 fn observed((aircraft, state, world): Look) -> Outputs {
-    engine::step::heading(aircraft, state, world).1
+    engine::step::derivatives(aircraft, state, world).1
 }
 
 /// Reflown less recorded; angles round the shorter way.
