@@ -32,7 +32,7 @@ const KEPT: &[(&str, &str)] = &[
 ];
 
 /// All that the engine may know of the world.
-const ENGINE_KNOWS: &[&str] = &["libm", "nalgebra", "serde"];
+const ENGINE_KNOWS: &[&str] = &["libm", "nalgebra", "serde", "wide"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

@@ -16,7 +16,7 @@ use engine::frames::{Attitude, Euler, Vec3};
 use engine::inputs::World;
 use engine::math::{PI, exp};
 use engine::pair::Pair;
-use engine::step::heading as derivatives;
+use engine::step::derivatives;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 use flying::{Chance, DEG, aloft, parked, violent_flight, xv15};
 use serde::Serialize;

@@ -23,6 +23,7 @@ pub mod fcc;
 pub mod frames;
 pub mod inputs;
 pub mod landing_gear;
+mod lanes;
 pub mod linearize;
 pub mod math;
 pub mod modes;
