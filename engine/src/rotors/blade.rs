@@ -12,7 +12,8 @@
 use serde::Deserialize;
 
 use super::section::{self, REGIONS, Region};
-use crate::math::{clamp, cos, sin};
+use crate::lanes::{self, LANES, Lanes};
+use crate::math::{cos, sin};
 use crate::table::Table1;
 
 /// Elements along a blade.
@@ -85,10 +86,42 @@ pub struct Station {
     pub cos_twist: f64,
 }
 
-impl Station {
-    /// Part of its area that lifts when lift ends at this part of the radius.
-    pub fn lifting(&self, tip_norm: f64) -> f64 {
-        clamp((tip_norm - self.inner_norm) / self.width_norm, 0.0, 1.0)
+/// Neighbouring elements, each in its lane: what the inflow needs of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    /// r.
+    pub radius_m: Lanes,
+    /// c.
+    pub chord_m: Lanes,
+    /// Where the regions begin, of the radius.
+    pub inner_norm: Lanes,
+    /// How wide those are.
+    pub width_norm: Lanes,
+    /// Sines of the twist.
+    pub sin_twist: Lanes,
+    /// Cosines of the twist.
+    pub cos_twist: Lanes,
+    /// α0.
+    pub zero_lift_rad: Lanes,
+}
+
+impl Group {
+    fn new(stations: &[Station], regions: &[Region]) -> Self {
+        let of = |f: fn(&Station) -> f64| Lanes::from_fn(|lane| f(&stations[lane]));
+        Self {
+            radius_m: of(|station| station.radius_m),
+            chord_m: of(|station| station.chord_m),
+            inner_norm: of(|station| station.inner_norm),
+            width_norm: of(|station| station.width_norm),
+            sin_twist: of(|station| station.sin_twist),
+            cos_twist: of(|station| station.cos_twist),
+            zero_lift_rad: Lanes::from_fn(|lane| regions[stations[lane].region].zero_lift_rad),
+        }
+    }
+
+    /// Parts of their areas that lift when lift ends at this part of the radius.
+    pub fn lifting(&self, tip_norm: f64) -> Lanes {
+        lanes::clamp((tip_norm - self.inner_norm) / self.width_norm, 0.0, 1.0)
     }
 }
 
@@ -99,6 +132,8 @@ pub struct Blade {
     pub stations: [Station; STATIONS],
     /// Sections, from the root.
     pub regions: [Region; REGIONS],
+    /// The elements in lanes, from the root.
+    pub(crate) groups: [Group; STATIONS / LANES],
 }
 
 /// The blade of a rotor of that radius.
@@ -124,5 +159,7 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade {
             cos_twist: cos(twist_rad),
         }
     });
-    Blade { stations, regions: params.section.regions(params.root_norm) }
+    let regions = params.section.regions(params.root_norm);
+    let groups = core::array::from_fn(|group| Group::new(&stations[group * LANES..], &regions));
+    Blade { stations, regions, groups }
 }
