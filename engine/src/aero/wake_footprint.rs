@@ -21,12 +21,13 @@
 
 use super::wing_pylon::{Inputs, Params};
 use crate::frames::{Body, Structural, Vec3};
-use crate::math::{PI, clamp, cos, exp, max, min, ramp, sin, sqrt, square};
+use crate::lanes::{self, LANES, Lanes};
+use crate::math::{PI, clamp, cos, exp, max, min, sin, sqrt, square};
 
 /// Stations over the chord.
-const CHORDWISE: u32 = 4;
+const CHORDWISE: usize = 4;
 /// Stations over the half span.
-const SPANWISE: u32 = 8;
+const SPANWISE: usize = 8;
 /// Half the thickness of the wake's edge, parts of the radius.
 const EDGE_NORM: f64 = 0.05;
 /// f.
@@ -71,9 +72,9 @@ impl Stream {
     }
 
     /// x(p) at `down`, parts of R, where the wake has contracted to `radius`.
-    fn place(&self, p: f64, down: f64, radius: f64) -> f64 {
+    fn place(&self, p: Lanes, down: f64, radius: f64) -> Lanes {
         let slowest_mps = SLOWEST.0 * self.blown_mps + SLOWEST.1;
-        let down_mps = max(self.down_mps + self.gradient_mps * p, slowest_mps);
+        let down_mps = lanes::max(self.down_mps + self.gradient_mps * p, slowest_mps);
         radius * p + down * self.blown_mps / down_mps
     }
 
@@ -90,6 +91,47 @@ impl Stream {
     }
 }
 
+/// Stations of one chordwise place, and the wake that passes there. Lengths are parts of R.
+struct Row {
+    /// Of the stations, downwind of the hub.
+    x: f64,
+    /// Down the wake.
+    down: f64,
+    /// To which the wake has contracted.
+    radius: f64,
+    /// The p of the least x(p).
+    foremost: f64,
+    /// How far the wake has shifted to the right.
+    aside: f64,
+}
+
+impl Row {
+    /// Whether no part of the wake comes near, edge and rounding included.
+    fn is_clear_of(&self, stream: &Stream) -> bool {
+        let ends = Lanes::from([self.foremost, -1.0, 0.0, 0.0]);
+        let [foremost, upwind, ..] = stream.place(ends, self.down, self.radius).to_array();
+        // The least x(p) is where its slope is 0, or upwind where air that hardly moves is carried
+        // away. No x(p) is greater than the slowest air's with the greatest p.
+        let front = min(foremost, upwind);
+        let rear = upwind + 2.0 * self.radius;
+        let apart = -EDGE_NORM - 1e-9;
+        // Where the shift is no number every station counts: nothing must hide that.
+        (self.x - front < apart || rear - self.x < apart) && self.aside.is_finite()
+    }
+
+    /// How far into the wake the stations are that lie `y` to the right of the hub: 0 out, 1 in.
+    fn covered(&self, stream: &Stream, y: Lanes) -> Lanes {
+        let place = |p: Lanes| stream.place(p, self.down, self.radius);
+        let eta = (y + self.aside) / self.radius;
+        let p = lanes::sqrt(lanes::max(0.0, 1.0 - lanes::square(eta)));
+        let front = place(lanes::clamp(self.foremost.into(), -p, p));
+        let rear = lanes::max(place(p), place(-p));
+        let sideways = self.radius * (1.0 - eta.abs());
+        let within = lanes::min(lanes::min(self.x - front, rear - self.x), sideways);
+        lanes::ramp(within, -EDGE_NORM, EDGE_NORM)
+    }
+}
+
 /// The part of the right half wing in its rotor's wake.
 pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
     let (s, c) = (sin(inputs.mast_tilt_rad), cos(inputs.mast_tilt_rad));
@@ -103,12 +145,14 @@ pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
 
     let radius_m = inputs.rotor_radius_m;
     let (chord_m, half_span_m) = (params.chord_m, 0.5 * params.span_m);
-    let (chordwise, spanwise) = (f64::from(CHORDWISE), f64::from(SPANWISE));
+    let (chordwise, spanwise) = (CHORDWISE as f64, SPANWISE as f64);
+    let buttlines_m: [f64; SPANWISE] =
+        core::array::from_fn(|j| half_span_m * (j as f64 + 0.5) / spanwise);
     let (mut part, mut part2, mut station, mut buttline) = (0.0, 0.0, 0.0, 0.0);
-    let mut covered = [0.0; SPANWISE as usize];
+    let mut covered = [0.0; SPANWISE];
     for i in 0..CHORDWISE {
         let point = Vec3::<Structural>::new(
-            params.trailing_edge_station_m - chord_m * (1.0 - (f64::from(i) + 0.5) / chordwise),
+            params.trailing_edge_station_m - chord_m * (1.0 - (i as f64 + 0.5) / chordwise),
             0.0,
             params.centre_m.z,
         );
@@ -117,21 +161,27 @@ pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
         if down <= 0.0 {
             continue;
         }
-        let x = -downwind * from_hub.dot(forward) / radius_m;
         let radius = 0.707 / sqrt(0.5 * (2.0 - exp(-1.197 * down)));
-        let foremost = stream.foremost(down, radius);
-        for (j, covered) in (0..SPANWISE).zip(&mut covered) {
-            let y_m = half_span_m * (f64::from(j) + 0.5) / spanwise;
-            let eta = ((y_m - hub.y) / radius_m + down * velocity.y / sideways_mps) / radius;
-            let p = sqrt(max(0.0, 1.0 - square(eta)));
-            let front = stream.place(clamp(foremost, -p, p), down, radius);
-            let rear = max(stream.place(p, down, radius), stream.place(-p, down, radius));
-            let within = min(min(x - front, rear - x), radius * (1.0 - eta.abs()));
-            let weight = ramp(within, -EDGE_NORM, EDGE_NORM) / (chordwise * spanwise);
-            *covered += weight * spanwise;
-            part += weight;
-            station += weight * point.x;
-            buttline += weight * y_m;
+        let row = Row {
+            x: -downwind * from_hub.dot(forward) / radius_m,
+            down,
+            radius,
+            foremost: stream.foremost(down, radius),
+            aside: down * velocity.y / sideways_mps,
+        };
+        if row.is_clear_of(&stream) {
+            continue;
+        }
+        for (j, y_m) in buttlines_m.chunks_exact(LANES).enumerate() {
+            let y = (Lanes::from_fn(|lane| y_m[lane]) - hub.y) / radius_m;
+            let weights = row.covered(&stream, y) / (chordwise * spanwise);
+            let covered = &mut covered[j * LANES..];
+            for ((weight, y_m), covered) in weights.to_array().iter().zip(y_m).zip(covered) {
+                *covered += weight * spanwise;
+                part += weight;
+                station += weight * point.x;
+                buttline += weight * y_m;
+            }
         }
     }
     for covered in covered {
