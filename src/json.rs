@@ -2,7 +2,7 @@
 
 use engine::STEP_S;
 use logs::fields::Value as Number;
-use replay::growth::{Growth, Moment};
+use replay::growth::{Growth, Sample};
 use replay::{Divergence, InputChange, SingleSteps, Stage};
 use serde_json::{Value, json};
 
@@ -96,7 +96,7 @@ pub fn growth(growth: &Growth) -> Value {
     })
 }
 
-fn moment(moment: &Moment) -> Value {
+fn moment(moment: &Sample) -> Value {
     let groups = moment.groups.iter().map(|group| {
         json!({
             "group": group.group,

@@ -30,7 +30,7 @@ mod with_rerun {
 
     use anyhow::{Context, bail};
     use engine::STEP_NS;
-    use replay::view::{DrawError, FlightView, Level, Other, draw_against};
+    use replay::view::{DrawError, FlightView, Other, Severity, draw_against};
     use replay::{Reflight, Window};
 
     use super::{Args, ExitCode, Result};
@@ -94,9 +94,9 @@ mod with_rerun {
         }
         for remark in &flight.reader.remarks {
             let level = match remark.level {
-                logs::view::Level::Info => Level::Info,
-                logs::view::Level::Warn => Level::Warning,
-                logs::view::Level::Error => Level::Error,
+                logs::view::Level::Info => Severity::Info,
+                logs::view::Level::Warn => Severity::Warning,
+                logs::view::Level::Error => Severity::Error,
             };
             view.event(remark.time_ns / STEP_NS, level, &remark.words);
         }

@@ -8,7 +8,7 @@ use engine::math::{PI, atan2, min, sqrt};
 use engine::{Outputs, STEP_S, State};
 use replay::{NewLog, Window, names_parent, parent, rewrite};
 
-use crate::window::Moment;
+use crate::window::When;
 use crate::{identity, report};
 
 /// What to change, and from when on.
@@ -24,10 +24,10 @@ pub struct Args {
     aircraft: Option<PathBuf>,
     /// From there on: a time in s (12.5), a tick (3125t), or a marker (marker:1)
     #[arg(long, value_name = "WHEN", default_value = "0t")]
-    from: Moment,
+    from: When,
     /// End there
     #[arg(long, value_name = "WHEN")]
-    until: Option<Moment>,
+    until: Option<When>,
     /// The new log [default: LOG with -whatif]
     #[arg(long, value_name = "NEW.mcap")]
     out: Option<PathBuf>,
@@ -68,7 +68,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         bail!("--until is not after --from");
     }
     // A log that does not begin at tick 0 is flown from where it begins, unless told otherwise.
-    let clamped = args.from == Moment::Tick(0);
+    let clamped = args.from == When::Tick(0);
     let window = Window { from_tick: Some(from_tick), until_tick, clamped };
     window.apply(&mut reader).with_context(name)?;
     let out = args.out.clone().unwrap_or_else(|| beside(log));

@@ -12,28 +12,28 @@ use replay::Window;
 pub struct WindowArgs {
     /// Begin there: a time in s (12.5), a tick (3125t), or a marker (marker:1)
     #[arg(long, value_name = "WHEN")]
-    pub from: Option<Moment>,
+    pub from: Option<When>,
     /// End there
     #[arg(long, value_name = "WHEN")]
-    until: Option<Moment>,
+    until: Option<When>,
     /// Before and after that, --window seconds
     #[arg(long, value_name = "WHEN", conflicts_with_all = ["from", "until"])]
-    around: Option<Moment>,
+    around: Option<When>,
     /// With --around: so many seconds before, and as many after
     #[arg(long, value_name = "SECONDS", requires = "around", default_value_t = 10.0)]
     window: f64,
 }
 
-/// A moment of a flight, in simulated time.
+/// A time of a flight: simulated, a tick, or a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Moment {
+pub enum When {
     /// After so many ticks.
     Tick(u64),
     /// When the pilot pressed the marker for the so-manieth time.
     Marker(u64),
 }
 
-impl FromStr for Moment {
+impl FromStr for When {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -55,7 +55,7 @@ fn ticks(seconds: f64) -> Option<u64> {
     (ticks.is_finite() && (0.0..=1e15).contains(&ticks)).then_some(ticks as u64)
 }
 
-impl Moment {
+impl When {
     /// Its tick.
     pub fn tick(self, log: &Path) -> Result<u64> {
         match self {
@@ -68,7 +68,7 @@ impl Moment {
 impl WindowArgs {
     /// The window in that log.
     pub fn of(&self, log: &Path) -> Result<Window> {
-        let tick = |moment: Option<Moment>| moment.map(|moment| moment.tick(log)).transpose();
+        let tick = |moment: Option<When>| moment.map(|moment| moment.tick(log)).transpose();
         if let Some(around) = tick(self.around)? {
             let Some(room) = ticks(self.window).filter(|&room| room > 0) else {
                 bail!("--window {}: expected {STEP_S} s (one tick) or more", self.window);
@@ -95,11 +95,11 @@ mod tests {
 
     #[test]
     fn a_moment_is_a_time_a_tick_or_a_marker() {
-        let moment = |text: &str| text.parse::<Moment>().ok();
-        assert_eq!(moment("12.5"), Some(Moment::Tick(3125)));
-        assert_eq!(moment("12.5s"), Some(Moment::Tick(3125)));
-        assert_eq!(moment("3125t"), Some(Moment::Tick(3125)));
-        assert_eq!(moment("marker:2"), Some(Moment::Marker(2)));
+        let moment = |text: &str| text.parse::<When>().ok();
+        assert_eq!(moment("12.5"), Some(When::Tick(3125)));
+        assert_eq!(moment("12.5s"), Some(When::Tick(3125)));
+        assert_eq!(moment("3125t"), Some(When::Tick(3125)));
+        assert_eq!(moment("marker:2"), Some(When::Marker(2)));
         for wrong in
             ["", "-1", "t", "1.5t", "marker", "marker:", "marker:-1", "nan", "inf", "1e300"]
         {

@@ -63,7 +63,7 @@ fn the_stage_is_the_one_that_gives_the_field() {
         ("actuators.elevator_rad", "actuators"),
         ("plant.rotors.left.flapping.coning_rad", "rotors"),
         ("rate.engines.rotor_speed_radps2", "engines"),
-        ("plant.treads.main.left.forward_m", "landing_gear"),
+        ("plant.tyre_deflections.main.left.forward_m", "landing_gear"),
         ("rate.horizontal_stabilizer.downwash_radps", "horizontal_stabilizer"),
         ("rate.motion.acceleration_mps2.z", "eom"),
         ("plant.position_m.z", "integration"),

@@ -4,9 +4,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
+
+mod tree;
+use tree::{manifest, root};
 
 /// Every arrow between crates. Only the command, the root package, knows all.
 const ARROWS: &[(&str, &[&str])] = &[
@@ -34,21 +36,12 @@ const KEPT: &[(&str, &str)] = &[
 /// All that the engine may know of the world.
 const ENGINE_KNOWS: &[&str] = &["libm", "nalgebra", "serde", "wide"];
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn manifest(folder: &Path) -> Table {
-    let path = folder.join("Cargo.toml");
-    let text = fs::read_to_string(&path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
-    text.parse().unwrap_or_else(|why| panic!("{}: {why}", path.display()))
-}
-
-/// The workspace's members with their manifests; the root package is not among them.
+/// The packages of every workspace in the tree by name, with their manifests; the command, the root
+/// package, is not among them.
 fn crates() -> BTreeMap<String, Table> {
-    let members = manifest(&root())["workspace"]["members"].as_array().expect("members").clone();
-    let member = |name: &Value| name.as_str().expect("a folder").to_string();
-    members.iter().map(member).map(|name| (name.clone(), manifest(&root().join(name)))).collect()
+    let mut packages = tree::packages();
+    packages.remove("tiltrotor").expect("the command");
+    packages.into_iter().map(|(name, (_, manifest))| (name, manifest)).collect()
 }
 
 /// What a package is built from, under the names of the packages.

@@ -1,7 +1,7 @@
 //! Numbers that the engine could not work with, refused before it meets them.
 
+use engine::inertia::Inertia;
 use engine::math::PI;
-use engine::weight_balance::Inertia;
 
 use crate::error::{ConfigError, Problem};
 use crate::tree::{Node, Value};
@@ -37,6 +37,7 @@ const BOUNDS: &[(&str, f64, f64)] = &[
     ("rated_power_w", SMALLEST, LARGEST),
     ("zero_fuel_mass_kg", SMALLEST, LARGEST),
     ("stiffness_n_per_m", SMALLEST, LARGEST),
+    ("tyre_stiffness_n_per_m", SMALLEST, LARGEST),
     ("tread_stiffness_n_per_m", SMALLEST, LARGEST),
     // Positive by their nature.
     ("rotor_speed_radps", SMALLEST, LARGEST),
@@ -44,6 +45,7 @@ const BOUNDS: &[(&str, f64, f64)] = &[
     ("rate_radps_max", SMALLEST, LARGEST),
     ("torque_n_m_max", SMALLEST, LARGEST),
     ("flapping_rad_max", 0.0, PI),
+    ("tyre_damping_n_s_per_m", 0.0, LARGEST),
     ("tread_damping_n_s_per_m", 0.0, LARGEST),
     ("damping_n_s_per_m", 0.0, LARGEST),
     ("stroke_m", 0.0, LARGEST),

@@ -5,11 +5,10 @@
 //! advance ratio and elevator forced, so that no trim stands between the two numbers.
 
 use engine::Aircraft;
-use engine::aero::{
-    Motion, fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon,
-};
+use engine::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
 use engine::frames::{Body, Load, Vec3};
 use engine::math::{PI, sqrt, square};
+use engine::motion::Motion;
 use engine::pair::Pair;
 
 const DEG: f64 = PI / 180.0;
@@ -100,7 +99,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
     let (flap_rad, elevator_rad) = (40.0 * DEG, trim.elevator_deg * DEG);
     let [x, y, z] = trim.rotor_lbf;
     let axis = Vec3::<Body>::new(0.0, 0.0, -1.0);
-    let wake = rotor_wake::rotor_wake(
+    let wake = rotor_wake::evaluate(
         &xv15.rotor_wake,
         &rotor_wake::Inputs {
             motion,
@@ -113,7 +112,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
             rotor_radius_m: 12.5 * FT,
         },
     );
-    let half = wing_pylon::half_wing(
+    let half = wing_pylon::evaluate(
         &xv15.wing_pylon,
         &wing_pylon::Inputs {
             motion,
@@ -151,7 +150,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         rudder_rad: 0.0,
     };
     Loads {
-        fuselage: fuselage::fuselage(
+        fuselage: fuselage::evaluate(
             &xv15.fuselage,
             &fuselage::Inputs { motion, gear_extension_norm: 0.0 },
         ),
@@ -159,13 +158,9 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         immersed_wing: both(half.immersed),
         pylons: both(half.pylon),
         spinners: both(half.spinner),
-        tail: horizontal_stabilizer::horizontal_stabilizer(
-            &xv15.horizontal_stabilizer,
-            &settled,
-            &tail_inputs,
-        )
-        .1,
-        fins: both(vertical_stabilizers::fin(&xv15.vertical_stabilizers, &fin_inputs)),
+        tail: horizontal_stabilizer::evaluate(&xv15.horizontal_stabilizer, &settled, &tail_inputs)
+            .1,
+        fins: both(vertical_stabilizers::evaluate(&xv15.vertical_stabilizers, &fin_inputs)),
     }
 }
 

@@ -367,7 +367,7 @@ fn the_mirrored_aircraft_has_the_mirrored_loads_to_the_bit() {
 fn the_fins_turn_the_nose_into_the_wind() {
     let xv15 = xv15();
     let fins = |beta_rad: f64| {
-        let motion = engine::aero::Motion {
+        let motion = engine::motion::Motion {
             cg_m: Vec3::new(7.57, 0.0, 2.0),
             airspeed_mps: Vec3::new(104.0, 104.0 * beta_rad, 0.0),
             angular_rate_radps: Vec3::zero(),
@@ -381,7 +381,7 @@ fn the_fins_turn_the_nose_into_the_wind() {
             pressure_ratio: 1.0,
             rudder_rad: 0.0,
         };
-        vertical_stabilizers::fin(&xv15.vertical_stabilizers, &inputs).moment_n_m.z
+        vertical_stabilizers::evaluate(&xv15.vertical_stabilizers, &inputs).moment_n_m.z
     };
     let per_rad = (fins(0.02) - fins(-0.02)) / 0.02 / 1.355_818;
     println!("fins: {per_rad:.0} ft lb/rad");

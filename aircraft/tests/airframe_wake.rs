@@ -2,9 +2,10 @@
 
 use engine::Aircraft;
 use engine::aero::wake_footprint::{Footprint, footprint};
-use engine::aero::{Motion, wing_pylon};
+use engine::aero::wing_pylon;
 use engine::frames::{Body, Vec3};
 use engine::math::PI;
+use engine::motion::Motion;
 
 const DEG: f64 = PI / 180.0;
 const FT: f64 = 0.3048;
@@ -42,7 +43,7 @@ fn inputs(xv15: &Aircraft, tilt_rad: f64, velocity: Vec3<Body>, v: f64) -> wing_
     }
 }
 
-fn washed(xv15: &Aircraft, tilt_rad: f64, velocity: Vec3<Body>, v: f64) -> Footprint {
+fn in_wake(xv15: &Aircraft, tilt_rad: f64, velocity: Vec3<Body>, v: f64) -> Footprint {
     footprint(&xv15.wing_pylon, &inputs(xv15, tilt_rad, velocity, v))
 }
 
@@ -64,7 +65,7 @@ const IMMERSED_TOLERANCE: f64 = 0.03;
 #[test]
 fn val_in_hover_the_wake_covers_the_published_area() {
     let xv15 = xv15();
-    let hover = washed(&xv15, 0.0, Vec3::zero(), 17.0);
+    let hover = in_wake(&xv15, 0.0, Vec3::zero(), 17.0);
     let area_ft2 = hover.area_m2 / (FT * FT);
     println!("{area_ft2:.1} ft2");
     assert!((area_ft2 / IMMERSED_FT2 - 1.0).abs() < IMMERSED_TOLERANCE);
@@ -76,7 +77,7 @@ fn val_in_hover_the_wake_covers_the_published_area() {
 fn in_hover_the_download_acts_in_the_middle_of_the_chord() {
     let xv15 = xv15();
     let hover = inputs(&xv15, 0.0, Vec3::zero(), 17.0);
-    let load = wing_pylon::half_wing(&xv15.wing_pylon, &hover).immersed;
+    let load = wing_pylon::evaluate(&xv15.wing_pylon, &hover).immersed;
     let down_at_m = -load.moment_n_m.y / load.force_n.z;
     assert!(load.force_n.z > 3000.0 && load.force_n.x.abs() < 0.05 * load.force_n.z);
     assert!((down_at_m - MIDDLE_FROM_CG_M).abs() < 1.0 * INCH, "{down_at_m} m");
@@ -86,12 +87,12 @@ fn in_hover_the_download_acts_in_the_middle_of_the_chord() {
 #[test]
 fn with_speed_the_wake_leaves_the_wing_backwards_and_without_a_jump() {
     let xv15 = xv15();
-    let whole_m2 = washed(&xv15, 0.0, Vec3::zero(), 17.0).area_m2;
-    let mut before = washed(&xv15, 0.0, Vec3::zero(), 17.0);
+    let whole_m2 = in_wake(&xv15, 0.0, Vec3::zero(), 17.0).area_m2;
+    let mut before = in_wake(&xv15, 0.0, Vec3::zero(), 17.0);
     let mut gone_kt = None;
     for tenth in 1..600 {
         let speed_mps = 0.1 * f64::from(tenth) * KT;
-        let now = washed(&xv15, 0.0, Vec3::new(speed_mps, 0.0, 0.0), induced(speed_mps));
+        let now = in_wake(&xv15, 0.0, Vec3::new(speed_mps, 0.0, 0.0), induced(speed_mps));
         assert!(now.area_m2 < before.area_m2 + 1e-3 * whole_m2, "{tenth} tenths of a knot");
         assert!(before.area_m2 - now.area_m2 < 0.025 * whole_m2, "{tenth} tenths of a knot");
         if now.area_m2 <= 0.0 {
@@ -106,7 +107,7 @@ fn with_speed_the_wake_leaves_the_wing_backwards_and_without_a_jump() {
 #[test]
 fn sideways_the_lee_wing_loses_its_wake_and_the_other_is_covered_further_in() {
     let xv15 = xv15();
-    let to = |right: f64| washed(&xv15, 0.0, Vec3::new(0.0, right * KT, 0.0), 15.0);
+    let to = |right: f64| in_wake(&xv15, 0.0, Vec3::new(0.0, right * KT, 0.0), 15.0);
     let (away, still, towards) = (to(-20.0), to(0.0), to(20.0));
     assert!(away.area_m2 < still.area_m2 && still.area_m2 < towards.area_m2);
     assert!(towards.centroid_from_cg_m.y < away.centroid_from_cg_m.y);
@@ -118,7 +119,7 @@ fn as_an_aeroplane_the_wing_stands_in_the_slipstream() {
     let xv15 = xv15();
     for (speed_kt, v) in [(100.0, 1.5), (250.0, 0.5)] {
         let cruise = Vec3::new(speed_kt * KT, 0.0, 0.03 * speed_kt * KT);
-        let part = washed(&xv15, 90.0 * DEG, cruise, v).area_m2 / (0.5 * xv15.wing_pylon.area_m2);
+        let part = in_wake(&xv15, 90.0 * DEG, cruise, v).area_m2 / (0.5 * xv15.wing_pylon.area_m2);
         assert!((0.55..0.75).contains(&part), "{speed_kt} kt: {part}");
     }
 }

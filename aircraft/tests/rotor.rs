@@ -5,7 +5,7 @@ mod rotor_stand;
 
 use engine::frames::Vec3;
 use engine::math::{PI, cos, sin, sqrt};
-use engine::rotors::{Params, State, rotor};
+use engine::rotors::{self, Params, State};
 use rotor_stand::{hover_at, hovering, settled, trimmed};
 
 const DEG: f64 = PI / 180.0;
@@ -177,7 +177,7 @@ fn val_the_disc_follows_the_stick_in_the_time_of_its_lock_number() {
     let mut state: State = start.state;
     let mut ticks = 0;
     while state.flapping.aft_rad / end < 1.0 - 1.0 / core::f64::consts::E {
-        state = rotor(&params, &blade, &state, &inputs).0;
+        state = rotors::evaluate(&params, &blade, &state, &inputs).0;
         ticks += 1;
     }
     let ours_s = f64::from(ticks) * engine::STEP_S;
@@ -234,7 +234,7 @@ fn no_flight_makes_the_rotor_infinite() {
             inputs.rotor_speed_radps = 0.0;
         }
         for _ in 0..125 {
-            let (next, out) = rotor(&params, &blade, &state, &inputs);
+            let (next, out) = rotors::evaluate(&params, &blade, &state, &inputs);
             let load = out.load.force_n.norm() + out.load.moment_n_m.norm() + out.power_w.abs();
             let flap = next.flapping;
             let flapping_rad = flap.aft_rad.abs() + flap.right_rad.abs() + flap.coning_rad.abs();

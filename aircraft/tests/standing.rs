@@ -25,7 +25,7 @@ fn parked_with_brakes_it_stands_still_for_a_minute() {
     assert!(turned_radps < 1e-4, "{turned_radps:.6} rad/s");
 }
 
-/// What sampling may add in a tick as the treads swing back: they hold 400 J at 10 rad/s, of which
+/// What sampling may add in a tick as the tyres swing back: they hold 400 J at 10 rad/s, of which
 /// a step of 4 ms misplaces a hundredth, to an aircraft of a megajoule.
 const GAIN_J: f64 = 1.0;
 

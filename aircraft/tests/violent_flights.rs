@@ -31,7 +31,7 @@ const SPEED_MPS_MAX: f64 = 400.0;
 const TURN_RADPS_MAX: f64 = 20.0;
 /// Windmilling in a dive at 250 m/s: twice the speed of a helicopter, and not three times.
 const ROTOR_RADPS_MAX: f64 = 185.0;
-/// Still air gives nothing back but what wake, flapping and treads had stored: the energy of a climb
+/// Still air gives nothing back but what wake, flapping and tyres had stored: the energy of a climb
 /// of 10 m.
 const ENERGY_KJ_MAX: f64 = 600.0;
 

@@ -85,7 +85,7 @@ fn cockpit_maps_and_scenario_load() {
 fn download(xv15: &Aircraft, detent: usize) -> f64 {
     let at = hover_at(&xv15.rotors, 589.0, 0.0105);
     let (motion, thrust_axis) = (hovering(589.0, 0.0).motion, xv15.rotors.thrust_axis(0.0));
-    let load = wing_pylon::half_wing(
+    let load = wing_pylon::evaluate(
         &xv15.wing_pylon,
         &wing_pylon::Inputs {
             motion,

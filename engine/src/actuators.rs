@@ -14,7 +14,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::STEP_S;
-use crate::fcc::mixer::Commands;
+use crate::controls::Commands;
 use crate::math::{clamp, exp};
 use crate::pair::Pair;
 use crate::table::Table1;

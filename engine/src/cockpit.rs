@@ -12,9 +12,9 @@ use alloc::vec::Vec;
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::controls::{FLAP_DETENT_LAST, PilotControls as State, RPM_SELECT_LAST};
 use crate::inputs::{DeviceEvent, EventKind};
 use crate::math::{clamp, sign};
-use crate::pair::Pair;
 
 /// What a device's axis can move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -131,40 +131,6 @@ pub struct Params {
     #[serde(default)]
     pub device: Vec<Device>,
 }
-
-/// Where the pilot holds everything. Booleans are 0 or 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct State {
-    /// −1 full forward … 1 full aft.
-    pub stick_aft_norm: f64,
-    /// −1 full left … 1 full right.
-    pub stick_right_norm: f64,
-    /// 0 down … 1 up.
-    pub collective_norm: f64,
-    /// −1 full left … 1 full right pedal.
-    pub pedal_right_norm: f64,
-    /// Toe brakes, 0 … 1.
-    pub brake_norm: Pair<f64>,
-    /// Nacelle switch: −1 forward, 0 released, 1 aft.
-    pub nacelle_aft_norm: f64,
-    /// Flap lever's detent, 0 (up) to 3.
-    pub flap_detent: u64,
-    /// Gear handle down.
-    pub gear_down: u64,
-    /// Parking brake set.
-    pub parking_brake: u64,
-    /// SCAS switched on.
-    pub scas_on: u64,
-    /// Rotor speed selected: 0 helicopter, 1 and 2 aeroplane.
-    pub rpm_select: u64,
-    /// How often the marker was pressed.
-    pub markers: u64,
-}
-
-/// The number of the last flap detent.
-pub const FLAP_DETENT_LAST: u64 = 3;
-/// The number of the last rotor speed.
-pub const RPM_SELECT_LAST: u64 = 2;
 
 /// Applies the events in their order. Events of unknown devices, codes or kinds change nothing.
 pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {

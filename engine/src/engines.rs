@@ -113,15 +113,16 @@ pub struct Rate {
 }
 
 /// Power, torque, fuel and the rotors' acceleration.
-pub fn engines(params: &Params, state: &Pair<State>, inputs: &Inputs) -> (Rate, Outputs) {
+pub fn evaluate(params: &Params, state: &Pair<State>, inputs: &Inputs) -> (Rate, Outputs) {
     let theta = inputs.temperature_k / TEMPERATURE_SL_K;
     let referred = inputs.pressure_pa / PRESSURE_SL_PA * sqrt(theta);
     let hotter = theta - 1.0;
     let by_temperature =
         1.0 - hotter * (params.temperature_loss + params.temperature_loss_growth * hotter);
     let available_w = max(0.0, params.rated_power_w * referred * by_temperature);
-    let lever = params.power_by_lever_norm.at(inputs.lever_norm);
-    let wanted_w = available_w * (params.idle_power_norm + (1.0 - params.idle_power_norm) * lever);
+    let power_norm = params.power_by_lever_norm.at(inputs.lever_norm);
+    let wanted_w =
+        available_w * (params.idle_power_norm + (1.0 - params.idle_power_norm) * power_norm);
     let running = Pair {
         left: !inputs.world.failed(failures::ENGINE_LEFT) && inputs.fuel_kg > 0.0,
         right: !inputs.world.failed(failures::ENGINE_RIGHT) && inputs.fuel_kg > 0.0,
@@ -208,7 +209,7 @@ mod tests {
     #[test]
     fn full_lever_gives_rated_power_at_sea_level() {
         let state = Pair::both(State { power_w: 1e6 });
-        let (rate, out) = engines(&params(), &state, &inputs());
+        let (rate, out) = evaluate(&params(), &state, &inputs());
         assert!((out.available_w - 1e6).abs() < 1e-6);
         assert!(rate.power_w_per_s.left.abs() < 1e-6);
     }
@@ -218,14 +219,14 @@ mod tests {
         let mut inputs = inputs();
         inputs.world.failures = failures::ENGINE_LEFT;
         let state = Pair::both(State { power_w: 5e5 });
-        let (rate, _) = engines(&params(), &state, &inputs);
+        let (rate, _) = evaluate(&params(), &state, &inputs);
         assert!(rate.power_w_per_s.left < 0.0 && rate.power_w_per_s.right > 0.0);
     }
 
     #[test]
     fn surplus_torque_speeds_the_rotors_up() {
         let state = Pair::both(State { power_w: 6e5 });
-        let (rate, _) = engines(&params(), &state, &inputs());
+        let (rate, _) = evaluate(&params(), &state, &inputs());
         assert!((rate.rotor_speed_radps2 - (20_000.0 - 10_000.0) / 1_000.0).abs() < 1e-9);
     }
 }

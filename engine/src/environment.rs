@@ -87,7 +87,7 @@ pub struct Outputs {
 }
 
 /// The air of this tick, and what the turbulence remembers after it.
-pub fn environment(state: &State, inputs: &Inputs) -> (State, Outputs) {
+pub fn update(state: &State, inputs: &Inputs) -> (State, Outputs) {
     let next = turbulence(state, inputs);
     let still = air(inputs.height_m, inputs.world);
     let outputs = Outputs {
@@ -115,7 +115,8 @@ pub fn air(height_m: f64, world: &World) -> Outputs {
         pressure_pa,
         temperature_k,
         sound_speed_mps: sqrt(HEAT_RATIO * GAS_J_PER_KG_K * temperature_k),
-        ..Outputs::default()
+        wind_mps: Vec3::zero(),
+        turbulence_mps: Vec3::zero(),
     }
 }
 

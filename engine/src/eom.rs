@@ -18,15 +18,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::GRAVITY_MPS2;
 use crate::frames::{Body, Load, Ned, Rotation, Vec3};
-use crate::weight_balance;
+use crate::inertia::Inertia;
 
 /// What the body's motion follows from.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs {
     /// Sum of all loads but gravity.
     pub load: Load,
-    /// Mass and inertia.
-    pub balance: weight_balance::Outputs,
+    /// m.
+    pub mass_kg: f64,
+    /// I.
+    pub inertia: Inertia,
     /// Attitude.
     pub ned_from_body: Rotation<Ned, Body>,
     /// ω.
@@ -45,12 +47,12 @@ pub struct Rate {
 }
 
 /// Accelerations.
-pub fn motion(inputs: &Inputs) -> Rate {
+pub fn evaluate(inputs: &Inputs) -> Rate {
     let gravity = Vec3::<Ned>::new(0.0, 0.0, GRAVITY_MPS2);
     let force = inputs.ned_from_body * inputs.load.force_n;
-    let acceleration_mps2 = force * (1.0 / inputs.balance.mass_kg) + gravity;
+    let acceleration_mps2 = force * (1.0 / inputs.mass_kg) + gravity;
 
-    let inertia = inputs.balance.inertia;
+    let inertia = inputs.inertia;
     let omega = inputs.angular_rate_radps;
     let turned = inertia.tensor() * Vector3::new(omega.x, omega.y, omega.z);
     let momentum = Vec3::new(turned.x, turned.y, turned.z);
@@ -72,11 +74,11 @@ mod tests {
     use crate::frames::Attitude;
 
     fn inputs(xx_kg_m2: f64, angular_rate_radps: Vec3<Body>) -> Inputs {
-        let inertia =
-            weight_balance::Inertia { xx_kg_m2, yy_kg_m2: 1000.0, zz_kg_m2: 3000.0, xz_kg_m2: 0.0 };
+        let inertia = Inertia { xx_kg_m2, yy_kg_m2: 1000.0, zz_kg_m2: 3000.0, xz_kg_m2: 0.0 };
         Inputs {
             load: Load::default(),
-            balance: weight_balance::Outputs { mass_kg: 1.0, inertia, ..Default::default() },
+            mass_kg: 1.0,
+            inertia,
             ned_from_body: Attitude::default().ned_from_body(),
             angular_rate_radps,
             spin_up_n_m: Vec3::zero(),
@@ -86,7 +88,7 @@ mod tests {
     /// Euler's equation by hand: ṗ = (I_yy − I_zz)·q·r/I_xx.
     #[test]
     fn a_body_that_pitches_and_yaws_begins_to_roll() {
-        let rate = motion(&inputs(2000.0, Vec3::new(0.0, 0.2, 0.3)));
+        let rate = evaluate(&inputs(2000.0, Vec3::new(0.0, 0.2, 0.3)));
         assert!((rate.angular_acceleration_radps2.x + 2000.0 * 0.06 / 2000.0).abs() < 1e-12);
         assert_eq!(rate.acceleration_mps2, Vec3::new(0.0, 0.0, GRAVITY_MPS2));
     }
@@ -96,6 +98,6 @@ mod tests {
     fn a_rotor_spun_up_turns_the_body_the_other_way() {
         let spun =
             Inputs { spin_up_n_m: Vec3::new(0.0, 0.0, -600.0), ..inputs(2000.0, Vec3::zero()) };
-        assert!((motion(&spun).angular_acceleration_radps2.z - 0.2).abs() < 1e-12);
+        assert!((evaluate(&spun).angular_acceleration_radps2.z - 0.2).abs() < 1e-12);
     }
 }

@@ -4,17 +4,18 @@
 //! ```text
 //! F = k·δ + c·δ̇, never pulling: F ≥ 0; past the stroke k grows tenfold; from 0.15 m past it the
 //!     strut yields: no greater F, and F·(1 + δ̇/1 m/s) where it rises, so that it throws nothing back
-//! grip: bristle s, ṡ = v_slip, |s| ≤ μF/k_t;   G = −(k_t·s + c_t·v_slip), |G| ≤ μF
-//! hull: z ≤ −(ground + h_hull); where that binds, ż ≤ 0, sliding loses μ_h·(ż + g·h), ω̇ = −ω/τ_h
+//! grip: tyre deflection s, ṡ = v_slip, |s| ≤ μF/k_t;   G = −(k_t·s + c_t·v_slip), |G| ≤ μF
+//! structural contact: z ≤ −(ground + h_c); where that binds, ż ≤ 0, sliding loses μ_c·(ż + g·h),
+//!     ω̇ = −ω/τ_c
 //! ```
 //! # Signs
 //! δ and δ̇ positive in compression. NED z is down, so the push is along −z. Slip positive forward
 //! and to the right of the aircraft's heading.
 //! # Assumptions
 //! Level ground; struts along NED z; a retracted wheel lies `retraction_m` higher and still bears, so
-//! a belly landing stands on the wheel wells. Rotors, tail and wing tips do not touch. The bristle
-//! is what lets the aircraft stand still: it holds without sliding, like a tyre's tread.
-//! The hull is a rule, not a model: a wreck, any way up, comes to rest on the ground instead of
+//! a belly landing stands on the wheel wells. Rotors, tail and wing tips do not touch. The tyre
+//! is what lets the aircraft stand still: it holds without sliding, as a deflected tyre does.
+//! Structural contact is a rule, not a model: a wreck, any way up, comes to rest on the ground instead of
 //! sinking into it, from where a wheel that turns up again would throw it out.
 
 use serde::{Deserialize, Serialize};
@@ -22,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use crate::frames::{Body, Load, Ned, Rotation, Structural, Vec3};
 use crate::math::{clamp, max, min, sqrt, square};
 use crate::pair::Pair;
+use crate::struts::Struts;
 use crate::{GRAVITY_MPS2, STEP_S};
 
 /// Past the stroke the strut is this much stiffer.
@@ -31,10 +33,10 @@ const YIELD_M: f64 = 0.15;
 /// Rising faster than this a strut that yielded pushes no more, m/s.
 const YIELD_MPS: f64 = 1.0;
 
-/// μ_h of the hull.
-const HULL_FRICTION: f64 = 0.5;
-/// τ_h of the hull, s.
-const HULL_STOP_S: f64 = 0.2;
+/// μ_c.
+const CONTACT_FRICTION: f64 = 0.5;
+/// τ_c, s.
+const CONTACT_STOP_S: f64 = 0.2;
 
 /// What a strut is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -65,27 +67,21 @@ pub struct Params {
     /// Main struts.
     pub main: Strut,
     /// k_t of one strut's tyres.
-    pub tread_stiffness_n_per_m: f64,
+    #[serde(alias = "tread_stiffness_n_per_m")]
+    pub tyre_stiffness_n_per_m: f64,
     /// c_t.
-    pub tread_damping_n_s_per_m: f64,
+    #[serde(alias = "tread_damping_n_s_per_m")]
+    pub tyre_damping_n_s_per_m: f64,
     /// How much higher a retracted wheel lies.
     pub retraction_m: f64,
-    /// h_hull: nearer to the ground than this the centre of gravity does not come, any way up.
-    pub hull_height_m: f64,
+    /// h_c: nearer to the ground than this the centre of gravity does not come, any way up.
+    #[serde(alias = "hull_height_m")]
+    pub contact_height_m: f64,
 }
 
-/// One of each strut.
+/// What a strut's tyres remember: how far their contact patch is deflected in the ground's plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Struts<T> {
-    /// Nose.
-    pub nose: T,
-    /// Mains.
-    pub main: Pair<T>,
-}
-
-/// What a strut's tyres remember: how far their tread is strained.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Tread {
+pub struct TyreDeflection {
     /// Along the heading.
     pub forward_m: f64,
     /// To the right of it.
@@ -126,40 +122,43 @@ pub struct Leg {
     pub bottomed: u64,
 }
 
-/// Loads of the struts, and their treads after the tick.
-pub fn landing_gear(
+/// Loads of the struts, and the deflections of their tyres after the tick.
+pub fn evaluate(
     params: &Params,
-    treads: &Struts<Tread>,
+    deflections: &Struts<TyreDeflection>,
     inputs: &Inputs,
-) -> (Struts<Tread>, Struts<Leg>) {
-    let leg = |strut: &Strut, tyre_m: Vec3<Structural>, tread: Tread, brake_norm: f64| {
-        strut_and_tread(params, strut, tyre_m, tread, brake_norm, inputs)
-    };
-    let (nose_tread, nose) = leg(&params.nose, params.nose.tyre_m, treads.nose, 0.0);
+) -> (Struts<TyreDeflection>, Struts<Leg>) {
+    let leg =
+        |strut: &Strut, tyre_m: Vec3<Structural>, deflection: TyreDeflection, brake_norm: f64| {
+            strut_and_tyre(params, strut, tyre_m, deflection, brake_norm, inputs)
+        };
+    let (nose_deflection, nose) = leg(&params.nose, params.nose.tyre_m, deflections.nose, 0.0);
     let main = Pair { left: params.main.tyre_m.mirrored(), right: params.main.tyre_m }
-        .zip(treads.main)
+        .zip(deflections.main)
         .zip(inputs.brake_norm)
-        .map(|((tyre_m, tread), brake_norm)| leg(&params.main, tyre_m, tread, brake_norm));
+        .map(|((tyre_m, deflection), brake_norm)| {
+            leg(&params.main, tyre_m, deflection, brake_norm)
+        });
     (
-        Struts { nose: nose_tread, main: main.map(|(tread, _)| tread) },
+        Struts { nose: nose_deflection, main: main.map(|(deflection, _)| deflection) },
         Struts { nose, main: main.map(|(_, leg)| leg) },
     )
 }
 
-fn strut_and_tread(
+fn strut_and_tyre(
     params: &Params,
     strut: &Strut,
     tyre_m: Vec3<Structural>,
-    tread: Tread,
+    deflection: TyreDeflection,
     brake_norm: f64,
     inputs: &Inputs,
-) -> (Tread, Leg) {
+) -> (TyreDeflection, Leg) {
     let raised = Vec3::new(0.0, 0.0, params.retraction_m * (1.0 - inputs.extension_norm));
     let arm = (tyre_m + raised).from_cg(inputs.cg_m);
     let tyre = inputs.position_m + inputs.ned_from_body * arm;
     let compression_m = tyre.z + inputs.ground_height_m;
     if compression_m <= 0.0 {
-        return (Tread::default(), Leg::default());
+        return (TyreDeflection::default(), Leg::default());
     }
     let velocity =
         inputs.velocity_mps + inputs.ned_from_body * inputs.angular_rate_radps.cross(arm);
@@ -172,9 +171,10 @@ fn strut_and_tread(
     let slip_forward_mps = velocity.x * north + velocity.y * east;
     let slip_right_mps = velocity.y * north - velocity.x * east;
     let along = strut.rolling_friction + strut.braking_friction * brake_norm;
-    let (forward_m, forward_n) = grip(params, tread.forward_m, slip_forward_mps, along * push_n);
+    let (forward_m, forward_n) =
+        grip(params, deflection.forward_m, slip_forward_mps, along * push_n);
     let (right_m, right_n) =
-        grip(params, tread.right_m, slip_right_mps, strut.sideways_friction * push_n);
+        grip(params, deflection.right_m, slip_right_mps, strut.sideways_friction * push_n);
     let force = Vec3::<Ned>::new(
         forward_n * north - right_n * east,
         forward_n * east + right_n * north,
@@ -182,7 +182,7 @@ fn strut_and_tread(
     );
     let load = Load::at(inputs.ned_from_body.inverse() * force, arm);
     (
-        Tread { forward_m, right_m },
+        TyreDeflection { forward_m, right_m },
         Leg { load, compression_m, push_n, bottomed: u64::from(past_stroke_m > 0.0) },
     )
 }
@@ -197,9 +197,9 @@ fn push(strut: &Strut, compression_m: f64, past_stroke_m: f64, sinking_mps: f64)
     min(push_n, push_n_max) * spent
 }
 
-/// How the aircraft moves, as the hull changes it.
+/// How the aircraft moves, as structural contact changes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hulled {
+pub struct RigidMotion {
     /// Centre of gravity.
     pub position_m: Vec3<Ned>,
     /// Its velocity.
@@ -208,30 +208,35 @@ pub struct Hulled {
     pub angular_rate_radps: Vec3<Body>,
 }
 
-/// The motion after a tick, kept above the ground by the hull; untouched where that does not bind.
-pub fn hull(params: &Params, motion: Hulled, ground_height_m: f64) -> Hulled {
-    let lowest_m = -(ground_height_m + params.hull_height_m);
+/// The motion after a tick, kept above the ground by contact of the structure with it; untouched
+/// where that does not bind.
+pub fn structural_contact(
+    params: &Params,
+    motion: RigidMotion,
+    ground_height_m: f64,
+) -> RigidMotion {
+    let lowest_m = -(ground_height_m + params.contact_height_m);
     if motion.position_m.z <= lowest_m {
         return motion;
     }
     let velocity = motion.velocity_mps;
     let pressed_mps = max(0.0, velocity.z) + GRAVITY_MPS2 * STEP_S;
     let sliding_mps = max(sqrt(square(velocity.x) + square(velocity.y)), 1e-9);
-    let kept = max(0.0, 1.0 - HULL_FRICTION * pressed_mps / sliding_mps);
-    Hulled {
+    let kept = max(0.0, 1.0 - CONTACT_FRICTION * pressed_mps / sliding_mps);
+    RigidMotion {
         position_m: Vec3::new(motion.position_m.x, motion.position_m.y, lowest_m),
         velocity_mps: Vec3::new(velocity.x * kept, velocity.y * kept, min(0.0, velocity.z)),
-        angular_rate_radps: motion.angular_rate_radps * (1.0 - STEP_S / HULL_STOP_S),
+        angular_rate_radps: motion.angular_rate_radps * (1.0 - STEP_S / CONTACT_STOP_S),
     }
 }
 
-/// The strained tread after the tick, and its force, neither beyond what friction holds.
-fn grip(params: &Params, strain_m: f64, slip_mps: f64, force_n_max: f64) -> (f64, f64) {
-    let strain_m_max = force_n_max / params.tread_stiffness_n_per_m;
-    let strain_m = clamp(strain_m + slip_mps * STEP_S, -strain_m_max, strain_m_max);
+/// A tyre's deflection after the tick, and its force, neither beyond what friction holds.
+fn grip(params: &Params, deflection_m: f64, slip_mps: f64, force_n_max: f64) -> (f64, f64) {
+    let deflection_m_max = force_n_max / params.tyre_stiffness_n_per_m;
+    let deflection_m = clamp(deflection_m + slip_mps * STEP_S, -deflection_m_max, deflection_m_max);
     let force_n =
-        -(params.tread_stiffness_n_per_m * strain_m + params.tread_damping_n_s_per_m * slip_mps);
-    (strain_m, clamp(force_n, -force_n_max, force_n_max))
+        -(params.tyre_stiffness_n_per_m * deflection_m + params.tyre_damping_n_s_per_m * slip_mps);
+    (deflection_m, clamp(force_n, -force_n_max, force_n_max))
 }
 
 #[cfg(test)]
@@ -252,10 +257,10 @@ mod tests {
         Params {
             nose: Strut { tyre_m: Vec3::new(3.48, 0.0, 0.0), ..strut.clone() },
             main: strut,
-            tread_stiffness_n_per_m: 3e5,
-            tread_damping_n_s_per_m: 2e4,
+            tyre_stiffness_n_per_m: 3e5,
+            tyre_damping_n_s_per_m: 2e4,
             retraction_m: 0.8,
-            hull_height_m: 1.0,
+            contact_height_m: 1.0,
         }
     }
 
@@ -274,18 +279,18 @@ mod tests {
 
     #[test]
     fn a_strut_pushes_by_its_spring_and_never_pulls() {
-        let (_, legs) = landing_gear(&params(), &Struts::default(), &standing(1.9));
+        let (_, legs) = evaluate(&params(), &Struts::default(), &standing(1.9));
         assert!((legs.nose.push_n - 175e3 * 0.1).abs() < 1e-6);
         let mut rebounding = standing(1.9);
         rebounding.velocity_mps = Vec3::new(0.0, 0.0, -50.0);
-        let (_, legs) = landing_gear(&params(), &Struts::default(), &rebounding);
+        let (_, legs) = evaluate(&params(), &Struts::default(), &rebounding);
         assert_eq!(legs.nose.push_n.to_bits(), 0);
     }
 
     #[test]
     fn in_the_air_nothing_touches() {
-        let (treads, legs) = landing_gear(&params(), &Struts::default(), &standing(2.5));
-        assert_eq!((treads, legs), (Struts::default(), Struts::default()));
+        let (deflections, legs) = evaluate(&params(), &Struts::default(), &standing(2.5));
+        assert_eq!((deflections, legs), (Struts::default(), Struts::default()));
     }
 
     #[test]
@@ -301,14 +306,14 @@ mod tests {
     }
 
     #[test]
-    fn the_hull_stops_a_wreck_and_leaves_a_flight_alone() {
-        let motion = Hulled {
+    fn structural_contact_stops_a_wreck_and_leaves_a_flight_alone() {
+        let motion = RigidMotion {
             position_m: Vec3::new(0.0, 0.0, -1.1),
             velocity_mps: Vec3::new(60.0, 0.0, 80.0),
             angular_rate_radps: Vec3::new(0.0, 9.0, 0.0),
         };
-        assert_eq!(hull(&params(), motion, 0.0), motion);
-        let wreck = hull(&params(), motion, 5.0);
+        assert_eq!(structural_contact(&params(), motion, 0.0), motion);
+        let wreck = structural_contact(&params(), motion, 5.0);
         assert_eq!((wreck.position_m.z, wreck.velocity_mps.z), (-6.0, 0.0));
         assert!((19.0..20.0).contains(&wreck.velocity_mps.x), "60 less half of 80 m/s");
         assert!(wreck.angular_rate_radps.y < 9.0);
@@ -319,7 +324,7 @@ mod tests {
         let mut inputs = standing(1.9);
         inputs.velocity_mps = Vec3::new(30.0, 0.0, 0.0);
         inputs.brake_norm = Pair::both(1.0);
-        let (_, legs) = landing_gear(&params(), &Struts::default(), &inputs);
+        let (_, legs) = evaluate(&params(), &Struts::default(), &inputs);
         let grip_n = -legs.main.left.load.force_n.x;
         assert!((grip_n / legs.main.left.push_n - 0.525).abs() < 1e-12);
     }

@@ -6,7 +6,9 @@
 //! transcendental functions are the pinned ones of [`math`].
 //!
 //! Blocks are named as in the block diagram of the literature; [`mod@step`] wires them and is the
-//! only place that does.
+//! only place that does. A block that is sampled once a tick is asked by `update`, one that gives loads
+//! or rates by `evaluate`. No block knows another: what several of them read is in [`motion`],
+//! [`controls`], [`inertia`] and [`struts`].
 #![no_std]
 
 extern crate alloc;
@@ -15,18 +17,21 @@ pub mod actuators;
 pub mod aero;
 pub mod aircraft;
 pub mod cockpit;
+pub mod controls;
 pub mod dense;
 pub mod engines;
 pub mod environment;
 pub mod eom;
 pub mod fcc;
 pub mod frames;
+pub mod inertia;
 pub mod inputs;
 pub mod landing_gear;
 mod lanes;
 pub mod linearize;
 pub mod math;
 pub mod modes;
+pub mod motion;
 pub mod outputs;
 pub mod pair;
 pub mod references;
@@ -34,6 +39,7 @@ pub mod rotors;
 pub mod start;
 pub mod state;
 pub mod step;
+pub mod struts;
 pub mod symmetry;
 pub mod table;
 pub mod trim;

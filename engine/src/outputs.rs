@@ -2,12 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::controls::{Commands, PilotControls};
 use crate::frames::{Body, Euler, Load, Ned, Vec3};
-use crate::landing_gear::{Leg, Struts};
+use crate::landing_gear::Leg;
 use crate::math::{cos, sin, sqrt, square};
 use crate::pair::Pair;
 use crate::state::Geodetic;
-use crate::{actuators, cockpit, engines, environment, fcc, rotors, weight_balance};
+use crate::struts::Struts;
+use crate::{actuators, engines, environment, rotors, weight_balance};
 
 /// Where the model's answer is no longer to be trusted, as bits of [`Outputs::validity`].
 pub mod validity {
@@ -109,9 +111,9 @@ pub struct Outputs {
     /// Fuel aboard.
     pub fuel_kg: f64,
     /// Where the pilot holds everything.
-    pub cockpit: cockpit::State,
+    pub cockpit: PilotControls,
     /// What the computer asks for.
-    pub commands: fcc::mixer::Commands,
+    pub commands: Commands,
     /// Where the surfaces, nacelles and gear are.
     pub actuators: actuators::State,
     /// Ω.

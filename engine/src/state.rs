@@ -6,10 +6,12 @@ use alloc::string::String;
 use serde::{Deserialize, Serialize};
 
 use crate::aero::horizontal_stabilizer;
+use crate::controls::PilotControls;
 use crate::frames::{Attitude, Body, Ned, Vec3};
-use crate::landing_gear::{Struts, Tread};
+use crate::landing_gear::TyreDeflection;
 use crate::pair::Pair;
-use crate::{actuators, cockpit, engines, environment, eom, fcc, rotors};
+use crate::struts::Struts;
+use crate::{actuators, engines, environment, eom, fcc, rotors};
 
 /// The whole state. No pointers, no NaN, no −0.0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -19,7 +21,7 @@ pub struct State {
     /// 1 once a number of the motion stopped being finite: the aircraft stands still from there.
     pub frozen: u64,
     /// Where the pilot holds everything.
-    pub cockpit: cockpit::State,
+    pub cockpit: PilotControls,
     /// Flight control computer.
     pub fcc: fcc::State,
     /// Actuators.
@@ -57,8 +59,8 @@ pub struct Plant {
     pub engines: Pair<engines::State>,
     /// Fuel aboard.
     pub fuel_kg: f64,
-    /// Strained tyre treads.
-    pub treads: Struts<Tread>,
+    /// How far the tyres are deflected in the plane of the ground.
+    pub tyre_deflections: Struts<TyreDeflection>,
     /// 1 while a main wheel bears weight.
     pub weight_on_wheels: u64,
 }
@@ -167,7 +169,7 @@ impl<T: Numbers> Numbers for Struts<T> {
 
 numbers! {
     State { tick, frozen, cockpit, fcc, actuators, environment, plant, rate }
-    cockpit::State {
+    PilotControls {
         stick_aft_norm, stick_right_norm, collective_norm, pedal_right_norm, brake_norm,
         nacelle_aft_norm, flap_detent, gear_down, parking_brake, scas_on, rpm_select, markers,
     }
@@ -185,7 +187,7 @@ numbers! {
     }
     Plant {
         origin, position_m, velocity_mps, attitude, angular_rate_radps, rotors,
-        horizontal_stabilizer, rotor_speed_radps, rotor_azimuth_rad, engines, fuel_kg, treads, weight_on_wheels,
+        horizontal_stabilizer, rotor_speed_radps, rotor_azimuth_rad, engines, fuel_kg, tyre_deflections, weight_on_wheels,
     }
     Geodetic { latitude_rad, longitude_rad, height_m }
     Attitude { w, x, y, z }
@@ -196,7 +198,7 @@ numbers! {
     }
     horizontal_stabilizer::State { downwash_rad }
     engines::State { power_w }
-    Tread { forward_m, right_m }
+    TyreDeflection { forward_m, right_m }
     PlantRate { motion, horizontal_stabilizer, engines }
     horizontal_stabilizer::Rate { downwash_radps }
     eom::Rate { acceleration_mps2, angular_acceleration_radps2 }
@@ -260,9 +262,9 @@ mod tests {
     #[test]
     fn no_negative_zero_and_no_nan_escapes() {
         let mut state = State::default();
-        state.plant.treads.main.right.right_m = -0.0;
+        state.plant.tyre_deflections.main.right.right_m = -0.0;
         let kept = state.without_negative_zeros();
-        assert_eq!(kept.plant.treads.main.right.right_m.to_bits(), 0);
+        assert_eq!(kept.plant.tyre_deflections.main.right.right_m.to_bits(), 0);
         assert!(state.is_finite());
         state.rate.engines.power_w_per_s.left = f64::NAN;
         assert!(!state.is_finite());

@@ -2,12 +2,14 @@
 //!
 //! A mirrored flight is the mirrored state, to the bit. North–down is the mirror plane of the world.
 
+use crate::controls::PilotControls;
 use crate::frames::Load;
 use crate::inputs::{World, failures};
-use crate::landing_gear::{Struts, Tread};
+use crate::landing_gear::TyreDeflection;
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
-use crate::{actuators, cockpit, engines, environment, eom, fcc};
+use crate::struts::Struts;
+use crate::{actuators, engines, environment, eom, fcc};
 
 /// Has a mirror image in the plane of symmetry.
 pub trait Mirror {
@@ -31,7 +33,7 @@ impl Mirror for State {
     }
 }
 
-impl Mirror for cockpit::State {
+impl Mirror for PilotControls {
     fn mirrored(&self) -> Self {
         Self {
             stick_right_norm: -self.stick_right_norm,
@@ -92,17 +94,17 @@ impl Mirror for Plant {
             angular_rate_radps: self.angular_rate_radps.mirrored_axial(),
             rotors: self.rotors.swapped(),
             engines: self.engines.swapped(),
-            treads: Struts {
-                nose: mirrored_tread(self.treads.nose),
-                main: self.treads.main.swapped().map(mirrored_tread),
+            tyre_deflections: Struts {
+                nose: mirrored_deflection(self.tyre_deflections.nose),
+                main: self.tyre_deflections.main.swapped().map(mirrored_deflection),
             },
             ..*self
         }
     }
 }
 
-fn mirrored_tread(tread: Tread) -> Tread {
-    Tread { right_m: -tread.right_m, ..tread }
+fn mirrored_deflection(deflection: TyreDeflection) -> TyreDeflection {
+    TyreDeflection { right_m: -deflection.right_m, ..deflection }
 }
 
 impl Mirror for PlantRate {

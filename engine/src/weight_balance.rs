@@ -12,42 +12,11 @@
 //! Inertia is that of the design gross weight whatever the fuel; fuel sits at the centre of gravity;
 //! the reaction to the nacelles' own acceleration is left out.
 
-use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use crate::frames::{Structural, Vec3};
+use crate::inertia::Inertia;
 use crate::math::{cos, sin};
-
-/// Moments and product of inertia about the centre of gravity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Inertia {
-    /// About the roll axis.
-    pub xx_kg_m2: f64,
-    /// About the pitch axis.
-    pub yy_kg_m2: f64,
-    /// About the yaw axis.
-    pub zz_kg_m2: f64,
-    /// Product; enters the tensor with a minus sign.
-    pub xz_kg_m2: f64,
-}
-
-impl Inertia {
-    /// The tensor in body axes.
-    pub fn tensor(&self) -> Matrix3<f64> {
-        Matrix3::new(
-            self.xx_kg_m2,
-            0.0,
-            -self.xz_kg_m2,
-            0.0,
-            self.yy_kg_m2,
-            0.0,
-            -self.xz_kg_m2,
-            0.0,
-            self.zz_kg_m2,
-        )
-    }
-}
 
 /// What the aircraft weighs.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -83,10 +52,10 @@ pub struct Outputs {
 }
 
 /// Mass and balance with `fuel_kg` aboard and the masts tilted by `mast_tilt_rad` (mean of both).
-pub fn balance(params: &Params, fuel_kg: f64, mast_tilt_rad: f64) -> Outputs {
-    let lever = params.pivot_m - params.tilting_cg_m;
-    let x0 = params.tilting_mass_ratio * lever.x;
-    let z0 = params.tilting_mass_ratio * lever.z;
+pub fn evaluate(params: &Params, fuel_kg: f64, mast_tilt_rad: f64) -> Outputs {
+    let arm = params.pivot_m - params.tilting_cg_m;
+    let x0 = params.tilting_mass_ratio * arm.x;
+    let z0 = params.tilting_mass_ratio * arm.z;
     let (s, c) = (sin(mast_tilt_rad), cos(mast_tilt_rad));
     let aft_m = z0 * s + x0 * (1.0 - c);
     let up_m = z0 * (1.0 - c) - x0 * s;

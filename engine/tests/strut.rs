@@ -1,9 +1,10 @@
 //! A mass on the main struts is the damped oscillator of the textbook.
 
 use engine::frames::{Attitude, Vec3};
-use engine::landing_gear::{Inputs, Params, Strut, Struts, landing_gear};
+use engine::landing_gear::{Inputs, Params, Strut, evaluate};
 use engine::math::{cos, exp, sin, sqrt};
 use engine::pair::Pair;
+use engine::struts::Struts;
 use engine::{GRAVITY_MPS2, STEP_S};
 
 const MASS_KG: f64 = 5000.0;
@@ -26,10 +27,10 @@ fn params() -> Params {
     Params {
         nose,
         main,
-        tread_stiffness_n_per_m: 1.0,
-        tread_damping_n_s_per_m: 0.0,
+        tyre_stiffness_n_per_m: 1.0,
+        tyre_damping_n_s_per_m: 0.0,
         retraction_m: 0.0,
-        hull_height_m: 0.0,
+        contact_height_m: 0.0,
     }
 }
 
@@ -45,7 +46,7 @@ fn acceleration_mps2(params: &Params, height_m: f64, down_mps: f64) -> f64 {
         extension_norm: 1.0,
         brake_norm: Pair::both(0.0),
     };
-    let (_, legs) = landing_gear(params, &Struts::default(), &inputs);
+    let (_, legs) = evaluate(params, &Struts::default(), &inputs);
     GRAVITY_MPS2 + legs.main.map(|leg| leg.load.force_n.z).sum() / MASS_KG
 }
 

@@ -18,6 +18,20 @@ use crate::records::{
 };
 use crate::{LogError, cdr, schema};
 
+/// Parts of the state that were called something else: as a log may name them, and as they are called today.
+const RENAMED: &[(&str, &str)] = &[("plant.treads.", "plant.tyre_deflections.")];
+
+/// Today's name of a number of a log.
+fn todays_name(path: &str) -> String {
+    let (of, bare) = path.strip_prefix("state.").map_or(("", path), |bare| ("state.", bare));
+    for (old, new) in RENAMED {
+        if let Some(rest) = bare.strip_prefix(old) {
+            return format!("{of}{new}{rest}");
+        }
+    }
+    path.to_owned()
+}
+
 /// How messages of a log's layout become today's struct: by the names of the fields.
 #[derive(Clone, Debug)]
 pub struct Mapping {
@@ -34,6 +48,7 @@ impl Mapping {
     /// When the struct is not recordable.
     pub fn to<T: Serialize + Default>(theirs: &Layout) -> Result<Self, LogError> {
         let ours = Layout::of::<T>()?;
+        let theirs = theirs.renamed(todays_name);
         let places: BTreeMap<_, _> =
             theirs.numbers().iter().enumerate().map(|(i, n)| (n.path.as_str(), i)).collect();
         let source = |number: &Number| {
@@ -42,7 +57,7 @@ impl Mapping {
             (theirs.numbers()[place].kind == number.kind).then_some(place)
         };
         let sources = ours.numbers().iter().map(source).collect();
-        Ok(Self { same: ours == *theirs, theirs: theirs.clone(), sources })
+        Ok(Self { same: ours == theirs, theirs, sources })
     }
 
     /// Whether the log's layout is today's.
@@ -219,6 +234,20 @@ fn is_todays(layout: &Layout) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_log_that_calls_a_part_of_the_state_by_its_old_name_has_todays_layout() {
+        for (old, new) in RENAMED {
+            let mut renamed = 0;
+            let theirs = Layout::of::<StateRecord>().unwrap().renamed(|path| {
+                renamed += usize::from(path.contains(new));
+                path.replace(new, old)
+            });
+            assert!(renamed > 0, "{new}: no part of the state");
+            assert!(Mapping::to::<StateRecord>(&theirs).unwrap().is_same(), "{old}");
+            assert!(Mapping::to::<State>(&theirs.of_state().unwrap()).unwrap().is_same(), "{old}");
+        }
+    }
 
     #[test]
     fn an_older_event_is_read_by_the_names_of_its_fields() {

@@ -101,6 +101,11 @@ impl Layout {
         &self.0
     }
 
+    /// The same numbers under other names.
+    pub(crate) fn renamed(&self, mut name: impl FnMut(&str) -> String) -> Self {
+        Self(self.0.iter().map(|number| Number { path: name(&number.path), ..*number }).collect())
+    }
+
     /// The layout without its first number, which is the digest, and without the name of what follows
     /// it: of a bare state. `None` when it is not one of a `/state` message.
     pub(crate) fn of_state(&self) -> Option<Self> {

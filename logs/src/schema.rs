@@ -162,7 +162,7 @@ mod tests {
     fn a_schema_names_every_type_once() {
         let text = ros2msg::<engine::State>().unwrap();
         assert!(text.starts_with("uint64 tick\n"), "{text}");
-        assert!(text.contains("tiltrotor/CockpitState cockpit\n"), "{text}");
+        assert!(text.contains("tiltrotor/FccState fcc\n"), "{text}");
         assert!(text.contains("MSG: tiltrotor/Vec3\nfloat64 x\nfloat64 y\nfloat64 z\n"));
         let mut names: Vec<_> = text.lines().filter(|line| line.starts_with("MSG: ")).collect();
         let all = names.len();

@@ -76,7 +76,7 @@ mod tests {
             ("air.density_kg_per_m3", "kg/m³"),
             ("rate.engines.power_w_per_s.left", "W/s"),
             ("damping_n_m_s_per_rad", "N·m·s/rad"),
-            ("plant.treads.main.left.forward_m", "m"),
+            ("plant.tyre_deflections.main.left.forward_m", "m"),
             ("cockpit.brake_norm.right", "norm"),
             ("world.gust_s", "s"),
         ];

@@ -16,7 +16,7 @@ use crate::clock::{Pace, claim_real_time, now_ns, wall_ns};
 use crate::hands::{Hands, Reach};
 use crate::self_check::{Checked, SelfCheck};
 use crate::statistics::Statistics;
-use crate::writer::{Delay, Item, Recording};
+use crate::writer::{Delay, Recording, ToRecord};
 
 /// Device events handled in one tick without asking for memory.
 const EVENTS_A_TICK: usize = 1024;
@@ -230,12 +230,12 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
         // Recorded before the step that uses it.
         let recorded_ns = now_ns();
         for event in &events {
-            recording.put(Item::Event(*event));
+            recording.put(ToRecord::Event(*event));
         }
         let inputs = InputsRecord { tick, events: events.len() as u64, world: crew.world };
-        recording.put(Item::Inputs(inputs));
+        recording.put(ToRecord::Inputs(inputs));
         if let Some((number, name)) = phase {
-            recording.put(Item::Phase(tick, number, name));
+            recording.put(ToRecord::Phase(tick, number, name));
         }
         let stepping_ns = now_ns();
         (state, outputs) = step(&aircraft, &state, &Inputs { events: &events, world: crew.world });
@@ -248,7 +248,7 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
             link.send(&outputs);
         }
         let sent_ns = now_ns();
-        recording.put(Item::State(state));
+        recording.put(ToRecord::State(state));
         recording.show(&outputs, state.plant.attitude);
         if let Some(check) = &mut self_check {
             check.put(&events, crew.world, &state);
@@ -266,12 +266,12 @@ pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError>
             record_ns: (stepping_ns - recorded_ns) + (handed_ns - sent_ns),
             overrun: u64::from(flight.real_time && handed_ns > pace.due_ns(tick) + STEP_NS),
         };
-        recording.put(Item::Timing(timing));
+        recording.put(ToRecord::Timing(timing));
         statistics.add(&timing);
         events_taken += events.len() as u64;
         progress.show(&outputs, crew.phase.0, statistics.overruns, recording.has_failed());
     }
-    recording.put(Item::Landed(state.tick, if stopped { 2 } else { 0 }));
+    recording.put(ToRecord::Landed(state.tick, if stopped { 2 } else { 0 }));
     let backlog_max = recording.backlog_max;
     // Before the log is closed: what it finds last is told there, too.
     let checked = self_check.map(SelfCheck::finish);

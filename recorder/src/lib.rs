@@ -19,6 +19,6 @@ pub mod writer;
 pub use clock::Pace;
 pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};
 pub use hands::{Hands, Reach};
-pub use rehearsal::{Moment, rehearse};
+pub use rehearsal::{RehearsedTick, rehearse};
 pub use self_check::{Checked, Mismatch};
 pub use writer::Delay;

@@ -9,7 +9,7 @@ use crate::flight::Crew;
 use crate::hands::Hands;
 
 /// One tick of a rehearsal.
-pub struct Moment<'a> {
+pub struct RehearsedTick<'a> {
     /// After the tick.
     pub state: &'a State,
     /// After the tick.
@@ -32,7 +32,7 @@ pub fn rehearse(
     start: &Start,
     hands: Vec<Box<dyn Hands>>,
     ticks_max: u64,
-    mut look: impl FnMut(&Moment<'_>),
+    mut look: impl FnMut(&RehearsedTick<'_>),
 ) -> Result<(State, Outputs), trim::Failure> {
     let mut state = start.state(aircraft)?;
     let mut crew = Crew::new(hands, start.world.world());
@@ -43,7 +43,7 @@ pub fn rehearse(
         crew.act(state.tick, &outputs, &mut events);
         let world = crew.world;
         (state, outputs) = step(aircraft, &state, &Inputs { events: &events, world });
-        look(&Moment {
+        look(&RehearsedTick {
             state: &state,
             outputs: &outputs,
             events: &events,

@@ -32,7 +32,7 @@ const TOLD_MAX: u64 = 100;
 #[derive(Clone, Copy)]
 // A tick is by far the most frequent.
 #[allow(clippy::large_enum_variant)]
-enum Item {
+enum ToRefly {
     Event(DeviceEvent),
     Tick(World, State),
 }
@@ -65,7 +65,7 @@ pub struct Checked {
 
 /// The loop's end.
 pub struct SelfCheck {
-    ring: Producer<Item>,
+    ring: Producer<ToRefly>,
     dropped: u64,
     hand_over: Durations,
     thread: JoinHandle<Checker>,
@@ -83,7 +83,7 @@ impl SelfCheck {
     ) -> Self {
         let (mut ring, mut items) = RingBuffer::new(RING_ITEMS);
         // Every page is there before the loop meets it.
-        while ring.push(Item::Tick(World::default(), *initial)).is_ok() {}
+        while ring.push(ToRefly::Tick(World::default(), *initial)).is_ok() {}
         while items.pop().is_ok() {}
         let done = Arc::new(AtomicBool::new(false));
         let checker = Checker {
@@ -105,9 +105,9 @@ impl SelfCheck {
         let started = Instant::now();
         if self.ring.slots() > events.len() {
             for event in events {
-                let _ = self.ring.push(Item::Event(*event));
+                let _ = self.ring.push(ToRefly::Event(*event));
             }
-            let _ = self.ring.push(Item::Tick(world, *state));
+            let _ = self.ring.push(ToRefly::Tick(world, *state));
         } else {
             self.dropped += 1;
         }
@@ -196,7 +196,7 @@ fn difference(reflown: &State, flown: &State) -> Mismatch {
 /// The thread's end.
 struct Checker {
     aircraft: Box<Aircraft>,
-    items: Consumer<Item>,
+    items: Consumer<ToRefly>,
     second: Second,
     tell: Sender<Mismatch>,
     found: Arc<AtomicU64>,
@@ -220,18 +220,18 @@ impl Checker {
         }
     }
 
-    fn take(&mut self, item: Item) {
+    fn take(&mut self, item: ToRefly) {
         match item {
-            Item::Event(event) => self.second.events.push(event),
+            ToRefly::Event(event) => self.second.events.push(event),
             // A tick was dropped before this one: what is there so far is checked, and the next
             // second begins after the gap.
-            Item::Tick(_, state) if state.tick != self.second.last().tick.wrapping_add(1) => {
+            ToRefly::Tick(_, state) if state.tick != self.second.last().tick.wrapping_add(1) => {
                 let before = self.second.ticks.last().map_or(0, |(to, ..)| *to);
                 self.second.events.truncate(before);
                 self.check();
                 self.second.restart(state);
             }
-            Item::Tick(world, state) => {
+            ToRefly::Tick(world, state) => {
                 self.second.ticks.push((self.second.events.len(), world, state));
                 if self.second.ticks.len() == TICKS {
                     self.check();

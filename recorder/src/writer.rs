@@ -47,7 +47,7 @@ pub struct Delay {
 #[derive(Clone, Copy)]
 // The state is by far the largest and by far the most frequent.
 #[allow(clippy::large_enum_variant)]
-pub enum Item {
+pub enum ToRecord {
     /// A device event.
     Event(DeviceEvent),
     /// The world, before the step.
@@ -64,8 +64,8 @@ pub enum Item {
 
 /// The loop's end of the hand-over.
 pub struct Recording {
-    ring: Producer<Item>,
-    overflow: VecDeque<Item>,
+    ring: Producer<ToRecord>,
+    overflow: VecDeque<ToRecord>,
     view: Producer<(Outputs, Attitude)>,
     thread: Option<JoinHandle<(Result<Closed, LogError>, Delay)>>,
     failed: Arc<AtomicBool>,
@@ -77,7 +77,7 @@ pub struct Recording {
 impl Recording {
     /// Starts the thread; `mismatches` is what a self-check finds.
     pub fn start(writer: FlightWriter, initial: &State, mismatches: Receiver<Mismatch>) -> Self {
-        let (ring, items) = touched_ring(RING_ITEMS, Item::State(*initial));
+        let (ring, items) = touched_ring(RING_ITEMS, ToRecord::State(*initial));
         let (view, views) = touched_ring(VIEW_ITEMS, (Outputs::default(), Attitude::default()));
         let failed = Arc::new(AtomicBool::new(false));
         let done = Arc::new(AtomicBool::new(false));
@@ -107,7 +107,7 @@ impl Recording {
     }
 
     /// Hands an item over. Never waits, never drops.
-    pub fn put(&mut self, item: Item) {
+    pub fn put(&mut self, item: ToRecord) {
         while let Some(waiting) = self.overflow.pop_front() {
             if let Err(PushError::Full(waiting)) = self.ring.push(waiting) {
                 self.overflow.push_front(waiting);
@@ -177,7 +177,7 @@ fn writer_died() -> LogError {
 /// The thread's end.
 struct Scribe {
     writer: Option<FlightWriter>,
-    items: Consumer<Item>,
+    items: Consumer<ToRecord>,
     views: Consumer<(Outputs, Attitude)>,
     narrator: Narrator,
     mismatches: Receiver<Mismatch>,
@@ -266,27 +266,27 @@ impl Scribe {
         writer.happened(*tick, Happening::SelfCheck, *fields, Level::Error, &words)
     }
 
-    fn write(&mut self, item: &Item) -> Result<(), LogError> {
+    fn write(&mut self, item: &ToRecord) -> Result<(), LogError> {
         let Some(writer) = self.writer.as_mut() else { return Ok(()) };
         match item {
-            Item::Event(event) => {
+            ToRecord::Event(event) => {
                 writer.event(event)?;
                 self.narrator.event(writer, event)
             }
-            Item::Inputs(inputs) => {
+            ToRecord::Inputs(inputs) => {
                 writer.inputs(inputs)?;
                 self.narrator.inputs(writer, inputs)
             }
-            Item::State(state) => {
+            ToRecord::State(state) => {
                 self.tick = state.tick;
                 writer.state(state)?;
                 self.narrator.state(writer, state)
             }
-            Item::Timing(timing) => writer.timing(timing),
-            Item::Phase(tick, number, name) => {
+            ToRecord::Timing(timing) => writer.timing(timing),
+            ToRecord::Phase(tick, number, name) => {
                 writer.happened(*tick, Happening::Phase, *number, Level::Info, name)
             }
-            Item::Landed(tick, reason) => {
+            ToRecord::Landed(tick, reason) => {
                 let words = match reason {
                     0 => "end of the flight",
                     1 => "ended by the crew",

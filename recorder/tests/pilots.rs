@@ -9,7 +9,7 @@ use engine::start::Start;
 use engine::{Aircraft, Outputs, State};
 use recorder::pilots::corridor::{self, KNOT_MPS};
 use recorder::pilots::{PILOTS, Pilot};
-use recorder::{Flight, Hands, Moment, Progress, Reach, fly, rehearse};
+use recorder::{Flight, Hands, Progress, Reach, RehearsedTick, fly, rehearse};
 
 const DEG: f64 = PI / 180.0;
 const RPM: f64 = PI / 30.0;
@@ -97,7 +97,7 @@ impl Story {
         story
     }
 
-    fn see(&mut self, now: &Moment<'_>) {
+    fn see(&mut self, now: &RehearsedTick<'_>) {
         let (state, seen) = (now.state, now.outputs);
         if self.phases.last() != Some(&now.phase) {
             self.phases.push(now.phase);

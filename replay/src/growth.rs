@@ -38,7 +38,7 @@ pub struct GroupDifference {
 
 /// Everything at one moment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Moment {
+pub struct Sample {
     /// After the first difference.
     pub after_s: u64,
     /// When.
@@ -49,7 +49,7 @@ pub struct Moment {
     pub groups: Vec<GroupDifference>,
 }
 
-impl Moment {
+impl Sample {
     /// A quantity, if it differs.
     pub fn group(&self, group: &str) -> Option<&GroupDifference> {
         self.groups.iter().find(|known| known.group == group)
@@ -71,7 +71,7 @@ pub struct Growth {
     /// From where on everything is the same again, if it is.
     pub same_from: Option<u64>,
     /// Looks at it.
-    pub moments: Vec<Moment>,
+    pub moments: Vec<Sample>,
     /// Seconds after the first difference, and logarithm to base 2 of the velocities' difference.
     samples: Vec<(f64, f64)>,
 }
@@ -114,7 +114,7 @@ impl Growth {
         }
     }
 
-    fn look(&self, after_s: u64, tick: u64, a: &[u8], b: &[u8]) -> Moment {
+    fn look(&self, after_s: u64, tick: u64, a: &[u8], b: &[u8]) -> Sample {
         let mut groups: Vec<Option<GroupDifference>> = vec![None; self.names.groups.len()];
         let mut fields = 0;
         for difference in self.names.differences(a, b) {
@@ -129,7 +129,7 @@ impl Growth {
             group.absolute = engine::math::max(group.absolute, difference.absolute());
             group.ulps = group.ulps.max(difference.ulps());
         }
-        Moment { after_s, tick, fields, groups: groups.into_iter().flatten().collect() }
+        Sample { after_s, tick, fields, groups: groups.into_iter().flatten().collect() }
     }
 
     fn sample(&mut self, after: u64, a: &[u8], b: &[u8]) {
@@ -175,7 +175,7 @@ const SHOWN: [&str; 5] = [
 /// As a table: a line a quantity, a column a moment.
 impl fmt::Display for Growth {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let line = |f: &mut fmt::Formatter<'_>, name: &str, of: &dyn Fn(&Moment) -> String| {
+        let line = |f: &mut fmt::Formatter<'_>, name: &str, of: &dyn Fn(&Sample) -> String| {
             write!(f, "\n    {name:<33}")?;
             self.moments.iter().try_for_each(|moment| write!(f, " {:>11}", of(moment)))
         };

@@ -33,7 +33,7 @@ pub enum Stage {
     VerticalStabilizers,
     /// Equations of motion.
     Eom,
-    /// What integrates the rates, and the hull's contact with the ground.
+    /// What integrates the rates, and the structure's contact with the ground.
     Integration,
     /// What can be observed, made of the rest.
     Outputs,
@@ -72,7 +72,7 @@ impl Stage {
             ("fcc.", Stage::Fcc),
             ("actuators.", Stage::Actuators),
             ("plant.rotors.", Stage::Rotors),
-            ("plant.treads.", Stage::LandingGear),
+            ("plant.tyre_deflections.", Stage::LandingGear),
             ("plant.weight_on_wheels", Stage::LandingGear),
             ("plant.", Stage::Integration),
             ("rate.motion.", Stage::Eom),

@@ -47,7 +47,7 @@ use rerun::sink::SinkFlushError;
 
 pub use against::{DrawError, Drawn, Other, draw_against};
 use canvas::Canvas;
-use layout::Kind;
+use layout::Subject;
 use track::{ALONE, Track};
 
 /// Of this many ticks one is drawn: 50 Hz.
@@ -89,7 +89,7 @@ pub enum ViewError {
 
 /// How much an event matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
+pub enum Severity {
     /// Good to know: a marker, a device that appeared.
     Info,
     /// Needs attention: a device gone, a model beyond its data.
@@ -98,7 +98,7 @@ pub enum Level {
     Error,
 }
 
-impl Level {
+impl Severity {
     fn name(self) -> &'static str {
         match self {
             Self::Info => rerun::TextLogLevel::INFO,
@@ -122,7 +122,7 @@ pub struct FlightView {
 impl FlightView {
     /// Begins the file at `path`, with everything that does not move and the viewer's layout.
     pub fn new(path: &Path, title: &str) -> Result<Self, ViewError> {
-        let canvas = Canvas::new(path, title, Kind::Flight, &[&ALONE])?;
+        let canvas = Canvas::new(path, title, Subject::Flight, &[&ALONE])?;
         Ok(Self { canvas, track: Track::new(&ALONE) })
     }
 
@@ -132,7 +132,7 @@ impl FlightView {
     }
 
     /// Notes an event.
-    pub fn event(&mut self, tick: u64, level: Level, text: &str) {
+    pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
         self.canvas.event(tick, level, text);
     }
 
@@ -214,15 +214,15 @@ mod tests {
         let mut outputs = Outputs::default();
         outputs.balance.cg_m = Vec3::new(7.65, 0.0, 2.074);
         outputs.position_m.z = -2.2;
-        view.event(0, Level::Info, "flight begins");
+        view.event(0, Severity::Info, "flight begins");
         for tick in 0..=ticks {
             outputs = flight(tick, &outputs);
             view.push(&outputs);
             if tick == 6 * SECOND {
-                view.event(tick, Level::Info, "marker 1");
+                view.event(tick, Severity::Info, "marker 1");
             }
             if tick == 13 * SECOND {
-                view.event(tick, Level::Warning, "rotor wake meets the tail");
+                view.event(tick, Severity::Warning, "rotor wake meets the tail");
             }
         }
         view.finish().expect("a disk with room")

@@ -268,20 +268,20 @@ pub fn rotors_stopped(state: &State) -> State {
     state
 }
 
-/// Kinetic and potential energy of the rigid body, and what struts and treads store, J.
+/// Kinetic and potential energy of the rigid body, and what struts and tyres store, J.
 pub fn energy_j(xv15: &Aircraft, state: &State, outputs: &Outputs) -> f64 {
     let gear = &xv15.landing_gear;
     let legs = &outputs.landing_gear;
     let spring_j =
         |stiffness_n_per_m: f64, strain_m: f64| 0.5 * stiffness_n_per_m * strain_m * strain_m;
-    let treads = &state.plant.treads;
-    let treads_j = [treads.nose, treads.main.left, treads.main.right].map(|tread| {
-        spring_j(gear.tread_stiffness_n_per_m, tread.forward_m)
-            + spring_j(gear.tread_stiffness_n_per_m, tread.right_m)
+    let tyres = &state.plant.tyre_deflections;
+    let tyres_j = [tyres.nose, tyres.main.left, tyres.main.right].map(|tyre| {
+        spring_j(gear.tyre_stiffness_n_per_m, tyre.forward_m)
+            + spring_j(gear.tyre_stiffness_n_per_m, tyre.right_m)
     });
     let stored_j = spring_j(gear.nose.stiffness_n_per_m, legs.nose.compression_m)
         + legs.main.map(|leg| spring_j(gear.main.stiffness_n_per_m, leg.compression_m)).sum()
-        + treads_j.iter().sum::<f64>();
+        + tyres_j.iter().sum::<f64>();
     let plant = &state.plant;
     let (v, w) = (plant.velocity_mps, plant.angular_rate_radps);
     let balance = &outputs.balance;
@@ -291,7 +291,7 @@ pub fn energy_j(xv15: &Aircraft, state: &State, outputs: &Outputs) -> f64 {
 
 /// Angular momentum of the rigid body, I·ω.
 pub fn turning(
-    inertia: engine::weight_balance::Inertia,
+    inertia: engine::inertia::Inertia,
     w: Vec3<engine::frames::Body>,
 ) -> Vec3<engine::frames::Body> {
     Vec3::new(

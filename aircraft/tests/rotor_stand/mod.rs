@@ -1,10 +1,10 @@
 //! A test stand: one right rotor alone, settled.
 #![allow(dead_code, reason = "each test uses its part of the stand")]
 
-use engine::aero::Motion;
 use engine::frames::Vec3;
 use engine::math::{PI, square};
-use engine::rotors::{Inputs, Outputs, Params, State, rotor};
+use engine::motion::Motion;
+use engine::rotors::{self, Inputs, Outputs, Params, State};
 
 const DEG: f64 = PI / 180.0;
 pub const DENSITY: f64 = engine::environment::DENSITY_SL_KG_PER_M3;
@@ -50,7 +50,7 @@ pub fn trimmed(
     let (blade, mut inputs) = (params.blade(), inputs);
     let (mut state, mut out) = (State::default(), Outputs::default());
     for _ in 0..SETTLING {
-        (state, out) = rotor(params, &blade, &state, &inputs);
+        (state, out) = rotors::evaluate(params, &blade, &state, &inputs);
         trim(&mut inputs, &out);
     }
     let c_t = out.thrust_coefficient;

@@ -17,9 +17,10 @@
 
 use serde::Deserialize;
 
-use super::{Motion, ahead, flow};
+use super::{ahead, local_flow};
 use crate::frames::{Load, Structural, Vec3};
 use crate::math::{FRAC_PI_2, PI, cos, sign, sin, square};
+use crate::motion::Motion;
 use crate::table::Table1;
 
 /// What the fuselage is. Tables over α are printed for ±90°, those over β for positive ones.
@@ -102,8 +103,8 @@ fn folded(alpha_rad: f64) -> (f64, f64) {
 }
 
 /// Load of the fuselage.
-pub fn fuselage(params: &Params, inputs: &Inputs) -> Load {
-    let flow = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
+    let flow = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
     let q = flow.pressure_pa;
     let (alpha, lift_sign) = folded(flow.alpha_rad);
     let (beta, side) = (flow.beta_rad.abs(), sign(flow.beta_rad));

@@ -21,9 +21,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::polar::ByMach;
-use super::{Motion, flow, in_body_axes, load_at};
+use super::{in_body_axes, load_at, local_flow};
 use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{PI, atan2, max, min, sqrt, square, wrap_angle};
+use crate::motion::Motion;
 use crate::table::{Table1, Table2, Table3};
 
 const DEG: f64 = PI / 180.0;
@@ -134,14 +135,14 @@ impl Params {
 
     /// η, which the fins share.
     pub fn pressure_ratio_at(&self, mast_tilt_rad: f64, motion: &Motion) -> f64 {
-        let whole = flow(motion.airspeed_mps, motion.density_kg_per_m3);
+        let whole = local_flow(motion.airspeed_mps, motion.density_kg_per_m3);
         self.pressure_ratio.at(mast_tilt_rad, whole.alpha_rad, whole.speed_mps)
     }
 }
 
 /// Load of the stabiliser, and the rate of its state.
-pub fn horizontal_stabilizer(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Load) {
-    let whole = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+pub fn evaluate(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Load) {
+    let whole = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
     let rate = Rate {
         downwash_radps: (params.downwash(inputs) - state.downwash_rad)
             * max(whole.speed_mps, WAKE_MPS_MIN)

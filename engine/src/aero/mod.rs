@@ -1,6 +1,7 @@
 //! Aerodynamics of the airframe: one block per component, and one for the rotors' wake on them.
 
 pub mod fuselage;
+pub mod half_wing;
 pub mod horizontal_stabilizer;
 pub mod polar;
 pub mod rotor_wake;
@@ -8,45 +9,15 @@ pub mod vertical_stabilizers;
 pub mod wake_footprint;
 pub mod wing_pylon;
 
-use crate::frames::{Body, Load, Structural, Vec3};
+use crate::frames::{Body, Load, Vec3};
 use crate::math::{FRAC_PI_2, PI, atan2, clamp, cos, sin, sqrt, square};
 
 /// Least dynamic length, so that a standing aircraft divides by something, m/s.
 const SPEED_MPS_MIN: f64 = 1e-3;
 
-/// How the aircraft moves through the air: what every aerodynamic block reads.
+/// The local flow at a component: angles, dynamic pressure and speed of the air that meets it.
 #[derive(Clone, Copy, Debug)]
-pub struct Motion {
-    /// Centre of gravity.
-    pub cg_m: Vec3<Structural>,
-    /// Velocity of the centre of gravity through the air.
-    pub airspeed_mps: Vec3<Body>,
-    /// Angular rate of the body.
-    pub angular_rate_radps: Vec3<Body>,
-    /// ρ.
-    pub density_kg_per_m3: f64,
-}
-
-impl Motion {
-    /// Velocity through the air of a point of the body.
-    pub fn velocity_at(&self, from_cg_m: Vec3<Body>) -> Vec3<Body> {
-        self.airspeed_mps + self.angular_rate_radps.cross(from_cg_m)
-    }
-
-    /// Image in the plane of symmetry.
-    #[must_use]
-    pub fn mirrored(&self) -> Self {
-        Self {
-            airspeed_mps: self.airspeed_mps.mirrored(),
-            angular_rate_radps: self.angular_rate_radps.mirrored_axial(),
-            ..*self
-        }
-    }
-}
-
-/// Flow at a component: what its own motion and the rotors' wake make together.
-#[derive(Clone, Copy, Debug)]
-pub struct Flow {
+pub struct LocalFlow {
     /// α, in the plane of symmetry, from below positive.
     pub alpha_rad: f64,
     /// β, from the right positive.
@@ -58,10 +29,10 @@ pub struct Flow {
 }
 
 /// The flow that meets a component moving with `velocity_mps` through the air.
-pub fn flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> Flow {
+pub fn local_flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> LocalFlow {
     let speed_mps = velocity_mps.norm();
     let in_plane_mps = sqrt(square(velocity_mps.x) + square(velocity_mps.z));
-    Flow {
+    LocalFlow {
         alpha_rad: atan2(velocity_mps.z, velocity_mps.x),
         beta_rad: atan2(velocity_mps.y, in_plane_mps + SPEED_MPS_MIN),
         pressure_pa: 0.5 * density_kg_per_m3 * square(speed_mps),

@@ -16,9 +16,10 @@
 
 use serde::Deserialize;
 
-use super::{Motion, flow};
+use super::local_flow;
 use crate::frames::{Body, Vec3};
 use crate::math::{PI, cos, max, sin, square};
+use crate::motion::Motion;
 use crate::pair::Pair;
 use crate::table::{Table2, Table3};
 
@@ -92,8 +93,8 @@ pub struct Outputs {
 }
 
 /// The wake at wing and tail.
-pub fn rotor_wake(params: &Params, inputs: &Inputs) -> Outputs {
-    let flow = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+pub fn evaluate(params: &Params, inputs: &Inputs) -> Outputs {
+    let flow = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
     let tilt_rad = inputs.mast_tilt_rad;
 
     let tip_mps = max(inputs.rotor_speed_radps, ROTOR_SPEED_RADPS_MIN) * inputs.rotor_radius_m;

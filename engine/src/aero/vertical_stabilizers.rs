@@ -20,9 +20,10 @@
 use serde::Deserialize;
 
 use super::polar::{ByMach, Flap};
-use super::{Motion, ahead, flow, load_at};
+use super::{ahead, load_at, local_flow};
 use crate::frames::{Load, Structural, Vec3};
 use crate::math::{PI, atan2, cos, max, ramp, sin, sqrt, square};
+use crate::motion::Motion;
 use crate::table::{Table1, Table2, Table3};
 
 const DEG: f64 = PI / 180.0;
@@ -139,7 +140,7 @@ impl Params {
 }
 
 /// Load of the right fin.
-pub fn fin(params: &Params, inputs: &Inputs) -> Load {
+pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
     let velocity = inputs.motion.velocity_at(arm);
     let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
@@ -152,7 +153,7 @@ pub fn fin(params: &Params, inputs: &Inputs) -> Load {
     let roll = inputs.motion.angular_rate_radps.x * params.wing_span_m / (2.0 * speed_mps);
     let beta = flow_rad - direction * params.sidewash_by_roll_rate * roll;
 
-    let whole = flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+    let whole = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
     let sideslip = whole.beta_rad.abs();
     let factor = params.rotor_sidewash.at(whole.speed_mps, sideslip)
         * params.fuselage_sidewash.at(

@@ -19,7 +19,7 @@
 //! way (an estimate), so that no area comes or goes at once. f = 1.3 is the mean between disc, 1, and
 //! wing, K0 = 1.6. Dihedral, sweep and the mast's cant count for nothing here.
 
-use super::wing_pylon::{Inputs, Params};
+use super::half_wing::{Inputs, Params};
 use crate::frames::{Body, Structural, Vec3};
 use crate::lanes::{self, LANES, Lanes};
 use crate::math::{PI, clamp, cos, exp, max, min, sin, sqrt, square};

@@ -27,14 +27,12 @@
 //! do, from 8 to 25° of α; β counts up to 20°. Platform drag comes with the hub's sideways motion only:
 //! the source's trim printouts have none in symmetric flight.
 
-use serde::Deserialize;
-
-use super::polar::{Flap, Polar};
+pub use super::half_wing::{Inputs, Params};
+use super::polar::Flap;
 use super::wake_footprint::{self, footprint};
-use super::{Motion, flow, in_body_axes, load_at};
-use crate::frames::{Body, Load, Structural, Vec3};
+use super::{in_body_axes, load_at, local_flow};
+use crate::frames::{Body, Load, Vec3};
 use crate::math::{PI, atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
-use crate::table::{Table1, Table2};
 
 const DEG: f64 = PI / 180.0;
 /// Flaperons work fully up to here …
@@ -43,97 +41,6 @@ const ATTACHED_RAD: f64 = 8.0 * DEG;
 const SEPARATED_RAD: f64 = 25.0 * DEG;
 /// Sideslip beyond this changes nothing more.
 const SIDESLIP_RAD_MAX: f64 = 20.0 * DEG;
-
-/// What a half wing is.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Params {
-    /// S of both halves.
-    pub area_m2: f64,
-    /// c.
-    pub chord_m: f64,
-    /// b.
-    pub span_m: f64,
-    /// Aerodynamic centre of the right half.
-    pub centre_m: Vec3<Structural>,
-    /// CL.
-    pub lift: Polar,
-    /// CD.
-    pub drag: Polar,
-    /// Cm over mast tilt and flap.
-    pub pitching_moment: Table2,
-    /// CD0, at no lift, over mast tilt and flap.
-    pub drag_at_no_lift: Table2,
-    /// Clβ at no lift, over mast tilt and flap.
-    pub rolling_by_sideslip_per_rad: Table2,
-    /// What Clβ grows by with CL.
-    pub rolling_by_sideslip_and_lift_per_rad: Table2,
-    /// Clp.
-    pub rolling_by_roll_rate: f64,
-    /// Clr/CL.
-    pub rolling_by_yaw_rate_and_lift: f64,
-    /// Cnβ at no lift.
-    pub yawing_by_sideslip_per_rad: f64,
-    /// Cnβ/CL².
-    pub yawing_by_sideslip_and_lift2_per_rad: f64,
-    /// Cnp/CL.
-    pub yawing_by_roll_rate_and_lift: f64,
-    /// Cnr/CL².
-    pub yawing_by_yaw_rate_and_lift2: f64,
-    /// Cnr/CD0.
-    pub yawing_by_yaw_rate_and_drag: f64,
-    /// Clδa.
-    pub rolling_by_flaperon_per_rad: f64,
-    /// K over mast tilt and flap.
-    pub flaperon_factor: Table2,
-    /// CLδa over flap.
-    pub lift_loss_by_flaperon_per_rad: Table1,
-    /// K_n0 over mast tilt and flap.
-    pub yawing_by_flaperon_per_rad: Table2,
-    /// K_n over mast tilt and flap.
-    pub yawing_by_flaperon_and_lift: Table2,
-    /// SL_WTE: fuselage station of the trailing edge.
-    pub trailing_edge_station_m: f64,
-    /// D_PYINT of both pylons over mast tilt.
-    pub interference_m2: Table1,
-    /// S_PLAT of one pylon.
-    pub platform_m2: f64,
-    /// K_PLAT over the angle of the flow from the side.
-    pub platform_factor: Table1,
-    /// Drag area of a spinner along its mast.
-    pub spinner_m2: f64,
-    /// Added when the flow comes across.
-    pub spinner_across_m2: f64,
-}
-
-/// What the right half reads.
-#[derive(Clone, Copy, Debug)]
-pub struct Inputs {
-    /// How the aircraft moves through the air.
-    pub motion: Motion,
-    /// Mach number.
-    pub mach: f64,
-    /// α_WFS.
-    pub alpha_rad: f64,
-    /// K0·v·n: velocity of the half wing through its wake.
-    pub wake_mps: Vec3<Body>,
-    /// βm of this side's nacelle.
-    pub mast_tilt_rad: f64,
-    /// n, of this side's thrust.
-    pub thrust_axis: Vec3<Body>,
-    /// v of this side's rotor.
-    pub induced_mps: f64,
-    /// R.
-    pub rotor_radius_m: f64,
-    /// Conversion pivot, where the pylon's drag acts.
-    pub pivot_m: Vec3<Structural>,
-    /// Hub.
-    pub hub_from_cg_m: Vec3<Body>,
-    /// Flap.
-    pub flap_rad: f64,
-    /// This side's flaperon beyond the flap's setting.
-    pub flaperon_rad: f64,
-}
 
 /// Loads of the right half by what they come from.
 #[derive(Clone, Copy, Debug)]
@@ -155,53 +62,28 @@ impl Outputs {
     }
 }
 
-impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        [
-            ("wing_pylon.lift", self.lift.fault()),
-            ("wing_pylon.drag", self.drag.fault()),
-            ("wing_pylon.pitching_moment", self.pitching_moment.fault()),
-            ("wing_pylon.drag_at_no_lift", self.drag_at_no_lift.fault()),
-            ("wing_pylon.rolling_by_sideslip", self.rolling_by_sideslip_per_rad.fault()),
-            (
-                "wing_pylon.rolling_by_sideslip_and_lift",
-                self.rolling_by_sideslip_and_lift_per_rad.fault(),
-            ),
-            ("wing_pylon.flaperon_factor", self.flaperon_factor.fault()),
-            ("wing_pylon.lift_loss_by_flaperon", self.lift_loss_by_flaperon_per_rad.fault()),
-            ("wing_pylon.yawing_by_flaperon", self.yawing_by_flaperon_per_rad.fault()),
-            ("wing_pylon.yawing_by_flaperon_and_lift", self.yawing_by_flaperon_and_lift.fault()),
-            ("wing_pylon.interference", self.interference_m2.fault()),
-            ("wing_pylon.platform_factor", self.platform_factor.fault()),
-        ]
-        .into_iter()
-        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
-    }
-}
-
 /// Loads of the right half.
-pub fn half_wing(params: &Params, inputs: &Inputs) -> Outputs {
+pub fn evaluate(params: &Params, inputs: &Inputs) -> Outputs {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
     let footprint = footprint(params, inputs);
-    let washed = Washed::at(inputs, arm);
+    let in_wake = InWake::at(inputs, arm);
     Outputs {
-        free_stream: free_stream(params, inputs, arm, footprint.area_m2, washed.pressure_pa),
+        free_stream: free_stream(params, inputs, arm, footprint.area_m2, in_wake.pressure_pa),
         immersed: immersed(params, inputs, &footprint),
-        pylon: pylon(params, inputs, washed),
+        pylon: pylon(params, inputs, in_wake),
         spinner: spinner(params, inputs),
     }
 }
 
 /// Flow in the plane of symmetry at the half wing in its wake.
 #[derive(Clone, Copy)]
-struct Washed {
+struct InWake {
     alpha_rad: f64,
     /// q_iw.
     pressure_pa: f64,
 }
 
-impl Washed {
+impl InWake {
     fn at(inputs: &Inputs, arm: Vec3<Body>) -> Self {
         let velocity = inputs.motion.velocity_at(arm) + inputs.wake_mps;
         Self {
@@ -218,7 +100,7 @@ fn free_stream(
     inputs: &Inputs,
     arm: Vec3<Body>,
     immersed_m2: f64,
-    washed_pa: f64,
+    pressure_in_wake_pa: f64,
 ) -> Load {
     let velocity = inputs.motion.airspeed_mps;
     let speed_mps = sqrt(square(velocity.x) + square(velocity.z));
@@ -240,7 +122,8 @@ fn free_stream(
     let force = in_body_axes(lift_n, q * free_m2 * cd, 0.0, inputs.alpha_rad);
     let pitching_n_m = q * half_m2 * params.chord_m * cm;
 
-    let beta = clamp(flow(velocity, rho).beta_rad, -SIDESLIP_RAD_MAX, SIDESLIP_RAD_MAX) * attached;
+    let beta =
+        clamp(local_flow(velocity, rho).beta_rad, -SIDESLIP_RAD_MAX, SIDESLIP_RAD_MAX) * attached;
     // q·p̂ and q·r̂, which stay finite at rest.
     let rate = 0.25 * rho * speed_mps * params.span_m * attached;
     let (roll, yaw) =
@@ -264,26 +147,30 @@ fn free_stream(
             + params.yawing_by_yaw_rate_and_drag
                 * params.drag_at_no_lift.at(tilt, inputs.flap_rad))
             * yaw
-        - washed_pa
+        - pressure_in_wake_pa
             * (params.yawing_by_flaperon_per_rad.at(tilt, inputs.flap_rad) * attached
                 + params.yawing_by_flaperon_and_lift.at(tilt, inputs.flap_rad) * cl * by_flaperon)
             * inputs.flaperon_rad;
-    let lever = half_m2 * params.span_m;
-    load_at(force, arm, pitching_n_m).with_moment(Vec3::new(rolling * lever, 0.0, yawing * lever))
+    let area_span_m3 = half_m2 * params.span_m;
+    load_at(force, arm, pitching_n_m).with_moment(Vec3::new(
+        rolling * area_span_m3,
+        0.0,
+        yawing * area_span_m3,
+    ))
 }
 
 fn immersed(params: &Params, inputs: &Inputs, part: &wake_footprint::Footprint) -> Load {
     if part.area_m2 <= 0.0 {
         return Load::default();
     }
-    let washed = Washed::at(inputs, part.centroid_from_cg_m);
+    let in_wake = InWake::at(inputs, part.centroid_from_cg_m);
     let velocity = inputs.motion.airspeed_mps;
     let deflection_rad = atan2(velocity.z, velocity.x) - inputs.alpha_rad;
-    let alpha = wrap_angle(washed.alpha_rad - deflection_rad);
+    let alpha = wrap_angle(in_wake.alpha_rad - deflection_rad);
     let flap = Flap::new(inputs.flap_rad);
     let cl = params.lift.lift_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
     let cd = params.drag.drag_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
-    let pressure_area = washed.pressure_pa * part.area_m2;
+    let pressure_area = in_wake.pressure_pa * part.area_m2;
     let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, alpha);
     let ahead_m = 0.25 * part.chord_m * cos(alpha);
     load_at(force, part.centroid_from_cg_m + Vec3::new(ahead_m, 0.0, 0.0), 0.0)
@@ -294,9 +181,9 @@ fn hub_velocity(inputs: &Inputs) -> Vec3<Body> {
     inputs.motion.velocity_at(inputs.hub_from_cg_m) + inputs.thrust_axis * inputs.induced_mps
 }
 
-fn pylon(params: &Params, inputs: &Inputs, washed: Washed) -> Load {
-    let drag_n = 0.5 * params.interference_m2.at(inputs.mast_tilt_rad) * washed.pressure_pa;
-    let interference = in_body_axes(0.0, drag_n, 0.0, washed.alpha_rad);
+fn pylon(params: &Params, inputs: &Inputs, in_wake: InWake) -> Load {
+    let drag_n = 0.5 * params.interference_m2.at(inputs.mast_tilt_rad) * in_wake.pressure_pa;
+    let interference = in_body_axes(0.0, drag_n, 0.0, in_wake.alpha_rad);
     let velocity = hub_velocity(inputs);
     let sideways_mps = inputs.motion.velocity_at(inputs.hub_from_cg_m).y;
     let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));

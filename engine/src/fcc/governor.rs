@@ -21,7 +21,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::STEP_S;
-use crate::cockpit::RPM_SELECT_LAST;
+use crate::controls::RPM_SELECT_LAST;
 use crate::math::{FRAC_PI_2, clamp, max, min};
 use crate::table::Table1;
 

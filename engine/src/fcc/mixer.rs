@@ -13,11 +13,11 @@
 //! A1 positive tilts both discs outboard; the programme is negative, against the lateral flapping of
 //! forward flight.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use super::Sensed;
 use super::scas::Sticks;
-use crate::cockpit::{self, FLAP_DETENT_LAST};
+use super::sensed::Sensed;
+use crate::controls::{Commands, FLAP_DETENT_LAST, PilotControls};
 use crate::math::clamp;
 use crate::pair::Pair;
 use crate::table::{Table1, Table2};
@@ -50,33 +50,6 @@ pub struct Params {
     pub mast_tilt_on_ground_rad_max: f64,
 }
 
-/// What the actuators are asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Commands {
-    /// θ at ¾ radius.
-    pub collective_rad: Pair<f64>,
-    /// B1.
-    pub cyclic_forward_rad: Pair<f64>,
-    /// A1.
-    pub cyclic_outboard_rad: Pair<f64>,
-    /// δe, trailing edge down.
-    pub elevator_rad: f64,
-    /// Beyond the flap's setting, down.
-    pub flaperon_rad: Pair<f64>,
-    /// δr, trailing edge right.
-    pub rudder_right_rad: f64,
-    /// Flap, down.
-    pub flap_rad: f64,
-    /// Nacelles: −1 towards the aeroplane, 1 towards the helicopter.
-    pub nacelle_aft_norm: f64,
-    /// Gear: 1 down.
-    pub gear_down: u64,
-    /// Power lever.
-    pub lever_norm: f64,
-    /// Wheel brakes.
-    pub brake_norm: Pair<f64>,
-}
-
 /// What the lever alone asks of the collective, from the bottom of the lever, rad.
 pub fn lever_collective(params: &Params, mast_tilt_rad: f64, lever_m: f64) -> f64 {
     params.collective_per_lever_rad_per_m.at(mast_tilt_rad) * lever_m
@@ -87,7 +60,7 @@ pub fn mix(
     params: &Params,
     sticks: &Sticks,
     collective_rad: f64,
-    pilot: &cockpit::State,
+    pilot: &PilotControls,
     sensed: &Sensed,
 ) -> Commands {
     let tilt_rad = sensed.mast_tilt_rad;

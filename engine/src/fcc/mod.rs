@@ -3,12 +3,13 @@
 pub mod governor;
 pub mod mixer;
 pub mod scas;
+pub mod sensed;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cockpit;
-use crate::frames::{Body, Euler, Vec3};
-use crate::inputs::World;
+pub use self::sensed::Sensed;
+use crate::controls::{Commands, PilotControls};
+use crate::inputs::{World, failures};
 
 /// What the computer is set to.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -47,42 +48,23 @@ pub struct State {
     pub governor: governor::State,
 }
 
-/// What the computer's sensors read.
-#[derive(Clone, Copy, Debug)]
-pub struct Sensed {
-    /// Angular rate of the body.
-    pub angular_rate_radps: Vec3<Body>,
-    /// Attitude.
-    pub euler: Euler,
-    /// True airspeed.
-    pub airspeed_mps: f64,
-    /// ½ρV².
-    pub dynamic_pressure_pa: f64,
-    /// Ω.
-    pub rotor_speed_radps: f64,
-    /// βm, mean of both nacelles.
-    pub mast_tilt_rad: f64,
-    /// 1 when a main wheel bears weight.
-    pub weight_on_wheels: bool,
-}
-
 /// One tick of the computer: the state after it, and what it asks of the actuators.
 pub fn update(
     params: &Params,
     state: &State,
-    pilot: &cockpit::State,
+    pilot: &PilotControls,
     sensed: &Sensed,
     world: &World,
-) -> (State, mixer::Commands) {
+) -> (State, Commands) {
     let sticks = scas::Sticks {
         aft_m: pilot.stick_aft_norm * params.travel.longitudinal_stick_m,
         right_m: pilot.stick_right_norm * params.travel.lateral_stick_m,
         pedal_right_m: pilot.pedal_right_norm * params.travel.pedal_m,
     };
     let on = scas::Axes {
-        pitch: pilot.scas_on != 0 && !world.failed(crate::inputs::failures::SCAS_PITCH),
-        roll: pilot.scas_on != 0 && !world.failed(crate::inputs::failures::SCAS_ROLL),
-        yaw: pilot.scas_on != 0 && !world.failed(crate::inputs::failures::SCAS_YAW),
+        pitch: pilot.scas_on != 0 && !world.failed(failures::SCAS_PITCH),
+        roll: pilot.scas_on != 0 && !world.failed(failures::SCAS_ROLL),
+        yaw: pilot.scas_on != 0 && !world.failed(failures::SCAS_YAW),
     };
     let (scas, augmented) = scas::update(&params.scas, &state.scas, &sticks, on, sensed);
     let lever_m = pilot.collective_norm * params.travel.collective_m;
@@ -94,7 +76,7 @@ pub fn update(
             rpm_select: pilot.rpm_select,
             rotor_speed_radps: sensed.rotor_speed_radps,
             mast_tilt_rad: sensed.mast_tilt_rad,
-            failed: world.failed(crate::inputs::failures::GOVERNOR),
+            failed: world.failed(failures::GOVERNOR),
         },
     );
     let commands = mixer::mix(&params.mixer, &augmented, collective_rad, pilot, sensed);

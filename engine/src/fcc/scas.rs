@@ -18,7 +18,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Sensed;
+use super::sensed::Sensed;
 use crate::math::{clamp, cos, max, min, sin, wrap_angle};
 use crate::{GRAVITY_MPS2, STEP_S};
 
@@ -95,38 +95,32 @@ pub struct Axes {
     pub yaw: bool,
 }
 
-/// The state after the tick, and the sticks with the series commands added.
-pub fn update(
+/// What the SCAS remembers after the tick.
+fn remembered(
     params: &Params,
     state: &State,
-    sticks: &Sticks,
+    washed_out: &Sticks,
     on: Axes,
     sensed: &Sensed,
-) -> (State, Sticks) {
-    let washed = Sticks {
-        aft_m: sticks.aft_m - state.mean_aft_m,
-        right_m: sticks.right_m - state.mean_right_m,
-        pedal_right_m: sticks.pedal_right_m - state.mean_pedal_right_m,
-    };
-    let wash = STEP_S / params.washout_s;
+) -> State {
+    let washout_step = STEP_S / params.washout_s;
     let follow = |works: bool, held_rad: f64, attitude_rad: f64, moved_m: f64| {
         let rests = works && moved_m.abs() < params.hold_stick_m && !sensed.weight_on_wheels;
         let step = if rests { 0.0 } else { min(1.0, STEP_S / params.hold_follow_s) };
         wrap_angle(held_rad + step * wrap_angle(attitude_rad - held_rad))
     };
-    let next = State {
-        mean_aft_m: state.mean_aft_m + wash * washed.aft_m,
-        mean_right_m: state.mean_right_m + wash * washed.right_m,
-        mean_pedal_right_m: state.mean_pedal_right_m + wash * washed.pedal_right_m,
-        held_pitch_rad: follow(
-            on.pitch,
-            state.held_pitch_rad,
-            sensed.euler.pitch_rad,
-            washed.aft_m,
-        ),
-        held_roll_rad: follow(on.roll, state.held_roll_rad, sensed.euler.roll_rad, washed.right_m),
-    };
+    let (pitch_rad, roll_rad) = (sensed.euler.pitch_rad, sensed.euler.roll_rad);
+    State {
+        mean_aft_m: state.mean_aft_m + washout_step * washed_out.aft_m,
+        mean_right_m: state.mean_right_m + washout_step * washed_out.right_m,
+        mean_pedal_right_m: state.mean_pedal_right_m + washout_step * washed_out.pedal_right_m,
+        held_pitch_rad: follow(on.pitch, state.held_pitch_rad, pitch_rad, washed_out.aft_m),
+        held_roll_rad: follow(on.roll, state.held_roll_rad, roll_rad, washed_out.right_m),
+    }
+}
 
+/// The series commands.
+fn series(params: &Params, next: &State, washed_out: &Sticks, on: Axes, sensed: &Sensed) -> Sticks {
     let scale = 1.0 / (1.0 + sensed.dynamic_pressure_pa / params.dynamic_pressure_pa);
     let rate = sensed.angular_rate_radps;
     let euler = sensed.euler;
@@ -134,7 +128,7 @@ pub fn update(
     let turning = crate::math::ramp(sensed.airspeed_mps, 15.0, 30.0);
     let turn_radps = turning * GRAVITY_MPS2 * sin(euler.roll_rad) * cos(euler.pitch_rad)
         / max(sensed.airspeed_mps, 15.0);
-    let series = |axis: &Axis, works: bool, rate_radps: f64, off_rad: f64, moved_m: f64| {
+    let command_m = |axis: &Axis, works: bool, rate_radps: f64, off_rad: f64, moved_m: f64| {
         if !works {
             return 0.0;
         }
@@ -149,11 +143,29 @@ pub fn update(
     };
     let pitch_off = euler.pitch_rad - next.held_pitch_rad;
     let roll_off = euler.roll_rad - next.held_roll_rad;
-    let added = Sticks {
-        aft_m: series(&params.pitch, on.pitch, rate.y, pitch_off, washed.aft_m),
-        right_m: series(&params.roll, on.roll, rate.x, roll_off, washed.right_m),
-        pedal_right_m: series(&params.yaw, on.yaw, rate.z - turn_radps, 0.0, washed.pedal_right_m),
+    let yaw_radps = rate.z - turn_radps;
+    Sticks {
+        aft_m: command_m(&params.pitch, on.pitch, rate.y, pitch_off, washed_out.aft_m),
+        right_m: command_m(&params.roll, on.roll, rate.x, roll_off, washed_out.right_m),
+        pedal_right_m: command_m(&params.yaw, on.yaw, yaw_radps, 0.0, washed_out.pedal_right_m),
+    }
+}
+
+/// The state after the tick, and the sticks with the series commands added.
+pub fn update(
+    params: &Params,
+    state: &State,
+    sticks: &Sticks,
+    on: Axes,
+    sensed: &Sensed,
+) -> (State, Sticks) {
+    let washed_out = Sticks {
+        aft_m: sticks.aft_m - state.mean_aft_m,
+        right_m: sticks.right_m - state.mean_right_m,
+        pedal_right_m: sticks.pedal_right_m - state.mean_pedal_right_m,
     };
+    let next = remembered(params, state, &washed_out, on, sensed);
+    let added = series(params, &next, &washed_out, on, sensed);
     let augmented = Sticks {
         aft_m: sticks.aft_m + added.aft_m,
         right_m: sticks.right_m + added.right_m,

@@ -31,9 +31,9 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::aero::Motion;
 use crate::frames::{Body, Load, Mast, Rotation, Structural, Vec3};
 use crate::math::{PI, cos, max, sin, square, tan};
+use crate::motion::Motion;
 
 /// What a rotor is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -182,10 +182,10 @@ impl Hub {
     }
 }
 
-/// The rotor one tick later, and its loads now.
+/// Loads of the rotor now, and the rotor one tick later.
 ///
 /// `blade` is the one of [`Params::blade`]: the same for both rotors, so it is made once.
-pub fn rotor(
+pub fn evaluate(
     params: &Params,
     blade: &blade::Blade,
     state: &State,
@@ -222,13 +222,17 @@ pub fn rotor(
     let sums = elements::elements(blade, &flow, &pitch, flap, &induced);
 
     let next = advance(params, state, &hub, &flow, &passage, &gimbal, &sums);
-    let outputs = outputs(params, state, inputs, &hub, &gimbal, &sums);
-    let outputs = Outputs {
+    let wake = Wake {
         induced_mps: ground.wake * state.inflow.mean_mps,
-        in_vortex_ring: u64::from(passage.in_vortex_ring),
-        ..outputs
+        in_vortex_ring: passage.in_vortex_ring,
     };
-    (next, outputs)
+    (next, outputs(params, state, inputs, &hub, &gimbal, &sums, &wake))
+}
+
+/// What the airframe and the crew notice of the rotor's inflow.
+struct Wake {
+    induced_mps: f64,
+    in_vortex_ring: bool,
 }
 
 fn advance(
@@ -261,7 +265,7 @@ fn advance(
     }
 }
 
-/// Loads and what can be observed, but for the inflow.
+/// Loads and what can be observed.
 fn outputs(
     params: &Params,
     state: &State,
@@ -269,6 +273,7 @@ fn outputs(
     hub: &Hub,
     gimbal: &flapping::Gimbal,
     sums: &elements::Sums,
+    wake: &Wake,
 ) -> Outputs {
     let blades = params.blade.count;
     let (thrust_n, torque_n_m) = (blades * sums.up_n, blades * sums.torque_n_m);
@@ -287,6 +292,7 @@ fn outputs(
         thrust_n,
         torque_n_m,
         power_w: torque_n_m * inputs.rotor_speed_radps,
+        induced_mps: wake.induced_mps,
         thrust_coefficient,
         blade_loading: thrust_coefficient / params.solidity,
         advance_ratio: crate::math::sqrt(in_plane) / tip_mps,
@@ -296,6 +302,6 @@ fn outputs(
         stalled_norm: sums.stalled_norm,
         stalled: u64::from(sums.stalled_norm > 0.1),
         on_stop: u64::from(gimbal.on_stop),
-        ..Outputs::default()
+        in_vortex_ring: u64::from(wake.in_vortex_ring),
     }
 }

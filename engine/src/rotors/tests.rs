@@ -79,8 +79,8 @@ fn hovering(collective_rad: f64) -> Inputs {
 
 fn after(params: &Params, state: State, inputs: &Inputs, ticks: u32) -> (State, Outputs) {
     let blade = params.blade();
-    let state = (0..ticks).fold(state, |state, _| rotor(params, &blade, &state, inputs).0);
-    (state, rotor(params, &blade, &state, inputs).1)
+    let state = (0..ticks).fold(state, |state, _| evaluate(params, &blade, &state, inputs).0);
+    (state, evaluate(params, &blade, &state, inputs).1)
 }
 
 fn settled(params: &Params, inputs: &Inputs) -> (State, Outputs) {
@@ -93,7 +93,7 @@ fn a_steady_rotor_is_steady() {
     let mut inputs = hovering(8.0 * DEG);
     inputs.motion.airspeed_mps = Vec3::new(30.0, 3.0, 2.0);
     let (state, _) = settled(&params, &inputs);
-    let (next, _) = rotor(&params, &params.blade(), &state, &inputs);
+    let (next, _) = evaluate(&params, &params.blade(), &state, &inputs);
     assert!((next.inflow.mean_mps - state.inflow.mean_mps).abs() < 1e-12);
     assert!((next.flapping.aft_rad - state.flapping.aft_rad).abs() < 1e-14);
     assert!((next.flapping.coning_rad - state.flapping.coning_rad).abs() < 1e-14);
@@ -282,11 +282,11 @@ fn a_vertical_descent_has_no_jump() {
     let (mut state, _) = settled(&params, &inputs);
     let sweep = |state: &mut State, inputs: &mut Inputs, sinks: &[f64]| {
         let mut worst = 0.0;
-        let mut before = rotor(&params, &blade, state, inputs).1.thrust_n;
+        let mut before = evaluate(&params, &blade, state, inputs).1.thrust_n;
         for sink_mps in sinks {
             inputs.motion.airspeed_mps.z = *sink_mps;
             *state = after(&params, *state, inputs, 500).0;
-            let now = rotor(&params, &blade, state, inputs).1.thrust_n;
+            let now = evaluate(&params, &blade, state, inputs).1.thrust_n;
             worst = max(worst, (now - before).abs() / now.abs());
             before = now;
         }
@@ -350,7 +350,7 @@ fn no_flight_makes_it_infinite() {
             hub_height_m: 20.0 + r(20.0),
         };
         for _ in 0..125 {
-            let (next, out) = rotor(&params, &blade, &state, &inputs);
+            let (next, out) = evaluate(&params, &blade, &state, &inputs);
             let load = out.load.force_n.norm() + out.load.moment_n_m.norm() + out.power_w;
             assert!(load.is_finite() && load.abs() < 1e9, "case {case}: {inputs:?}");
             let flap = next.flapping;

@@ -20,7 +20,7 @@ pub(crate) fn inner_states(names: &[String]) -> Vec<usize> {
         "plant.rotor_speed_radps",
         "plant.rotor_azimuth_rad",
         "plant.fuel_kg",
-        "plant.treads",
+        "plant.tyre_deflections",
     ];
     (0..names.len())
         .filter(|&i| {

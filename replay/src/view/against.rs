@@ -9,11 +9,11 @@ use logs::cdr;
 use rerun::{LineStrips3D, Radius, Scalars, SeriesLines};
 
 use super::canvas::{Canvas, times};
-use super::layout::Kind;
+use super::layout::Subject;
 use super::plots::PLOTS;
 use super::scene::point;
 use super::track::{RECORDED, REFLOWN, Track};
-use super::{Level, TICKS_PER_ROW, ViewError};
+use super::{Severity, TICKS_PER_ROW, ViewError};
 use crate::compare::Names;
 use crate::diff::{At, Cursor};
 use crate::refly::{ReplayError, read};
@@ -57,13 +57,13 @@ const GROWTH: [(&str, &str, u32); 5] = [
 /// # Errors
 /// When a log cannot be read, or the recording not be written.
 pub fn draw_against(log: &Path, other: Other, saved: &Path) -> Result<Drawn, DrawError> {
-    let mut recorded = Flight::open(log)?;
+    let mut recorded = LoggedFlight::open(log)?;
     let mut other = match other {
-        Other::Log(path) => Beside::Log(Box::new(Flight::open(path)?)),
+        Other::Log(path) => Beside::Log(Box::new(LoggedFlight::open(path)?)),
         Other::Reflown => Beside::Reflown(Box::new(recorded.first()?)),
     };
     let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
-    let canvas = Canvas::new(saved, &title, Kind::Comparison, &[&RECORDED, &REFLOWN])?;
+    let canvas = Canvas::new(saved, &title, Subject::Comparison, &[&RECORDED, &REFLOWN])?;
     let mut page = Page::new(canvas)?;
     while let Some(at) = recorded.cursor.now.take() {
         let world = world_of(&at);
@@ -90,9 +90,9 @@ pub fn draw_against(log: &Path, other: Other, saved: &Path) -> Result<Drawn, Dra
     }
     for remark in &recorded.cursor.reader.remarks {
         let level = match remark.level {
-            logs::view::Level::Info => Level::Info,
-            logs::view::Level::Warn => Level::Warning,
-            logs::view::Level::Error => Level::Error,
+            logs::view::Level::Info => Severity::Info,
+            logs::view::Level::Warn => Severity::Warning,
+            logs::view::Level::Error => Severity::Error,
         };
         page.canvas.event(remark.time_ns / engine::STEP_NS, level, &remark.words);
     }
@@ -112,17 +112,17 @@ pub enum DrawError {
 
 /// What the second aircraft follows.
 enum Beside {
-    Log(Box<Flight>),
+    Log(Box<LoggedFlight>),
     Reflown(Box<State>),
 }
 
 /// A log, with the aircraft in it.
-struct Flight {
+struct LoggedFlight {
     cursor: Cursor,
     aircraft: Aircraft,
 }
 
-impl Flight {
+impl LoggedFlight {
     fn open(path: &Path) -> Result<Self, ReplayError> {
         let cursor = Cursor::open(path)?;
         let aircraft = read(&cursor.reader.setup)?.aircraft;
@@ -167,8 +167,8 @@ struct Row {
     apart: [[f32; 3]; 2],
 }
 
-/// A state and what it is looked at with.
-type Look<'a> = (&'a Aircraft, &'a State, &'a World);
+/// A state in its world, and the aircraft.
+type InWorld<'a> = (&'a Aircraft, &'a State, &'a World);
 
 impl Page {
     fn new(mut canvas: Canvas) -> Result<Self, DrawError> {
@@ -204,7 +204,7 @@ impl Page {
         })
     }
 
-    fn add(&mut self, a: Look, b: Option<Look>) -> Result<(), DrawError> {
+    fn add(&mut self, a: InWorld, b: Option<InWorld>) -> Result<(), DrawError> {
         let tick = a.1.tick;
         if let Some(b) = b {
             self.look_for_difference(tick, a.1, b.1)?;
@@ -251,7 +251,7 @@ impl Page {
                 "first difference: {} ({stage}), {} beside {}",
                 difference.name.path, difference.a, difference.b
             );
-            self.canvas.event(tick, Level::Warning, &words);
+            self.canvas.event(tick, Severity::Warning, &words);
         }
         Ok(())
     }
@@ -301,7 +301,7 @@ impl Page {
         self.recorded.finish(&mut self.canvas);
         self.reflown.finish(&mut self.canvas);
         if self.first_difference.is_none() {
-            self.canvas.event(0, Level::Info, "no difference: the same states to the bit");
+            self.canvas.event(0, Severity::Info, "no difference: the same states to the bit");
         }
         let bytes = self.canvas.finish()?;
         Ok(Drawn { bytes, first_difference: self.first_difference })
@@ -314,7 +314,7 @@ fn growth_entity(number: usize) -> String {
 }
 
 /// What can be observed of a state by itself.
-fn observed((aircraft, state, world): Look) -> Outputs {
+fn observed((aircraft, state, world): InWorld) -> Outputs {
     engine::step::derivatives(aircraft, state, world).1
 }
 

@@ -9,10 +9,10 @@ use rerun::{
 };
 
 use super::file::RrdFile;
-use super::layout::{self, Kind};
+use super::layout::{self, Subject};
 use super::scene::{Columns, send_still_life};
 use super::track::Look;
-use super::{Level, SIM_TIME, ViewError};
+use super::{SIM_TIME, Severity, ViewError};
 
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
@@ -23,13 +23,18 @@ pub struct Canvas {
     pub recording: RecordingStream,
     file: RrdFile,
     path: PathBuf,
-    kind: Kind,
+    kind: Subject,
     error: Option<RecordingStreamError>,
 }
 
 impl Canvas {
     /// Begins the file, with everything that does not move and the viewer's layout.
-    pub fn new(path: &Path, title: &str, kind: Kind, looks: &[&Look]) -> Result<Self, ViewError> {
+    pub fn new(
+        path: &Path,
+        title: &str,
+        kind: Subject,
+        looks: &[&Look],
+    ) -> Result<Self, ViewError> {
         let file = RrdFile::create(path)
             .map_err(|source| ViewError::Write { path: path.into(), source })?;
         let recording = begin(&file, title, kind, looks)
@@ -53,7 +58,7 @@ impl Canvas {
     }
 
     /// Notes an event.
-    pub fn event(&mut self, tick: u64, level: Level, text: &str) {
+    pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
         let columns = TextLog::new(text)
             .with_level(level.name())
             .columns_of_unit_batches()
@@ -82,7 +87,7 @@ impl Canvas {
 fn begin(
     file: &RrdFile,
     title: &str,
-    kind: Kind,
+    kind: Subject,
     looks: &[&Look],
 ) -> RecordingStreamResult<RecordingStream> {
     // Of its properties only the name is sent: rerun would add when it began.

@@ -91,7 +91,7 @@ const GROWTH: &[Graph] = &[("logarithm to base 10 of the difference", &["growth"
 /// A view fits its axes, map and eye to what is there when it first appears. So a layout is sent
 /// twice: at the start for a flight that never ends, and at the end, as other views (`edition`), to
 /// be fitted to the whole flight.
-pub fn send(recording: &RecordingStream, edition: u8, kind: Kind) -> RecordingStreamResult<()> {
+pub fn send(recording: &RecordingStream, edition: u8, kind: Subject) -> RecordingStreamResult<()> {
     let Some(about) = recording.store_info() else { return Ok(()) };
     let (stream, storage) = RecordingStreamBuilder::new(about.application_id().clone())
         .enabled(true)
@@ -118,14 +118,14 @@ pub fn send(recording: &RecordingStream, edition: u8, kind: Kind) -> RecordingSt
 
 /// What is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum Subject {
     /// One flight.
     Flight,
     /// Two, and the difference.
     Comparison,
 }
 
-impl Kind {
+impl Subject {
     /// Before the names of the entities of each flight.
     fn roots(self) -> &'static [&'static str] {
         match self {
@@ -144,7 +144,7 @@ impl Kind {
 struct Page {
     stream: RecordingStream,
     edition: u8,
-    kind: Kind,
+    kind: Subject,
     named: u8,
 }
 
@@ -163,14 +163,14 @@ impl Page {
             let roots = self.kind.roots();
             let plots = self.plots(name, graphs, roots, "")?;
             tabs.push(match self.kind {
-                Kind::Flight => plots,
-                Kind::Comparison => {
+                Subject::Flight => plots,
+                Subject::Comparison => {
                     let delta = self.plots("Difference", graphs, &["/delta/"], "Δ ")?;
                     self.container(ContainerKind::Horizontal, name, &[plots, delta], &[])?
                 }
             });
         }
-        if self.kind == Kind::Comparison {
+        if self.kind == Subject::Comparison {
             tabs.push(self.plots("Growth", GROWTH, &["/delta/"], "")?);
         }
         let right = self.container(ContainerKind::Tabs, "Plots", &tabs, &[])?;
@@ -232,7 +232,7 @@ impl Page {
         grid: &LineGrid3D,
     ) -> RecordingStreamResult<Id> {
         let mut queries = self.kind.each("world/**");
-        if self.kind == Kind::Comparison {
+        if self.kind == Subject::Comparison {
             queries.push("/delta/apart".into());
         }
         queries.extend_from_slice(without);
@@ -272,7 +272,8 @@ impl Page {
 
     fn plot(&mut self, name: &str, queries: &[String]) -> RecordingStreamResult<Id> {
         // Two columns of plots are too narrow for two legends: the same colours are in the other one.
-        let told = self.kind == Kind::Flight || queries.iter().all(|of| of.starts_with("/delta/"));
+        let told =
+            self.kind == Subject::Flight || queries.iter().all(|of| of.starts_with("/delta/"));
         let legend = PlotLegend::new().with_corner(Corner2D::LeftTop).with_visible(told);
         let axis = TimeAxis::new().with_view_range(WHOLE_FLIGHT);
         let properties: &[(&str, &dyn AsComponents)] =

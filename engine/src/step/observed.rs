@@ -1,0 +1,101 @@
+//! What can be observed after a tick.
+
+use super::blocks::Blocks;
+use crate::Aircraft;
+use crate::controls::Commands;
+use crate::math::{atan2, min, sqrt, square};
+use crate::outputs::{EulerRate, Outputs, calibrated_airspeed, place, validity};
+use crate::state::State;
+
+/// Rotor speeds of the data, rad/s: 0.7 of 589 rpm, below the slowest of an aeroplane, to the limit of
+/// 661 rpm.
+const ROTOR_RADPS_MIN: f64 = 43.0;
+const ROTOR_RADPS_MAX: f64 = 69.3;
+/// Turning faster than this is no flight, rad/s.
+const TUMBLING_RADPS: f64 = 3.0;
+
+/// What can be observed of `next`, the state after the tick; loads are those that led to it.
+pub(super) fn outputs(
+    aircraft: &Aircraft,
+    blocks: &Blocks,
+    next: &State,
+    commands: &Commands,
+) -> Outputs {
+    let Blocks { air, motion, balance, rotors, engines, gear, loads, total, .. } = blocks;
+    let plant = &next.plant;
+    let euler = plant.attitude.euler();
+    let body_from_ned = plant.attitude.ned_from_body().inverse();
+    let velocity = motion.airspeed_mps;
+    let airspeed_mps = velocity.norm();
+    let mach = airspeed_mps / air.sound_speed_mps;
+    let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
+    let specific_force_mps2 = total.force_n * (1.0 / balance.mass_kg);
+    // A point that is fixed in the structure: the centre of gravity as a helicopter.
+    let fixed = aircraft.weight_balance.cg_m.from_cg(balance.cg_m);
+    let place = place(&plant.origin, plant.position_m + plant.attitude.ned_from_body() * fixed);
+    let height_above_ground_m = -plant.position_m.z - blocks.ground_height_m;
+    Outputs {
+        tick: next.tick,
+        place,
+        position_m: plant.position_m,
+        height_above_ground_m,
+        velocity_mps: plant.velocity_mps,
+        body_velocity_mps: body_from_ned * plant.velocity_mps,
+        euler,
+        euler_rate: EulerRate::new(euler, plant.angular_rate_radps),
+        angular_rate_radps: plant.angular_rate_radps,
+        specific_force_mps2,
+        load_factor: -specific_force_mps2.z / crate::GRAVITY_MPS2,
+        airspeed_mps,
+        calibrated_airspeed_mps: calibrated_airspeed(min(mach, 0.99), air.pressure_pa),
+        mach,
+        alpha_rad: atan2(velocity.z, velocity.x),
+        beta_rad: atan2(velocity.y, in_plane_mps),
+        air: *air,
+        balance: *balance,
+        fuel_kg: plant.fuel_kg,
+        cockpit: next.cockpit,
+        commands: *commands,
+        actuators: next.actuators,
+        rotor_speed_radps: plant.rotor_speed_radps,
+        rotor_azimuth_rad: plant.rotor_azimuth_rad,
+        rotors: *rotors,
+        engines: *engines,
+        landing_gear: gear.legs,
+        loads: *loads,
+        total: *total,
+        validity: blocks.validity(aircraft, next, place.height_m, height_above_ground_m),
+    }
+}
+
+impl Blocks {
+    fn validity(
+        &self,
+        aircraft: &Aircraft,
+        next: &State,
+        height_m: f64,
+        height_above_ground_m: f64,
+    ) -> u64 {
+        let flag = |bit: u64, set: bool| if set { bit } else { 0 };
+        let airborne = next.plant.weight_on_wheels == 0;
+        let legs = &self.gear.legs;
+        let bottomed =
+            [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
+        flag(validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
+            | flag(validity::FLAPPING_STOP, self.rotors.map(|rotor| rotor.on_stop).sum() > 0)
+            | flag(
+                validity::VORTEX_RING,
+                airborne && self.rotors.map(|rotor| rotor.in_vortex_ring).sum() > 0,
+            )
+            | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
+            | flag(validity::HEIGHT, height_m > 12e3)
+            | flag(validity::GEAR_BOTTOMED, bottomed)
+            | flag(validity::FROZEN, next.frozen != 0)
+            | flag(
+                validity::ROTOR_SPEED,
+                !(ROTOR_RADPS_MIN..=ROTOR_RADPS_MAX).contains(&next.plant.rotor_speed_radps),
+            )
+            | flag(validity::TUMBLING, next.plant.angular_rate_radps.norm() > TUMBLING_RADPS)
+            | flag(validity::HULL, height_above_ground_m <= aircraft.landing_gear.contact_height_m)
+    }
+}
