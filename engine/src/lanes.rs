@@ -203,8 +203,8 @@ pub fn square(x: Lanes) -> Lanes {
 /// Sine and cosine of each lane's angle, one after the other: they are those of [`math`].
 #[inline(always)]
 pub fn sin_cos(angle_rad: Lanes) -> (Lanes, Lanes) {
-    let angles_rad = angle_rad.to_array();
-    (angles_rad.map(math::sin).into(), angles_rad.map(math::cos).into())
+    let both = angle_rad.to_array().map(math::sin_cos);
+    (both.map(|(s, _)| s).into(), both.map(|(_, c)| c).into())
 }
 
 /// The greatest whole number not above each lane, 0 ≤ x < 2⁵¹, and the same as integers.
