@@ -38,7 +38,12 @@ pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outp
         let blocks = Blocks::evaluate(aircraft, &held, &inputs.world, &air);
         return (held, outputs(aircraft, &blocks, &held, &commands));
     }
-    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
+    let actuators = actuators::update(
+        &aircraft.actuators,
+        &aircraft.actuator_parts,
+        &state.actuators,
+        &commands,
+    );
     let sampled = State { fcc, actuators, environment, ..held };
 
     // Integrated across the tick.
@@ -59,7 +64,12 @@ pub fn derivatives(aircraft: &Aircraft, state: &State, world: &World) -> (State,
     let (environment, air) = weather(state, world);
     let sensed = sense(state, &air);
     let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
-    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
+    let actuators = actuators::update(
+        &aircraft.actuators,
+        &aircraft.actuator_parts,
+        &state.actuators,
+        &commands,
+    );
     let blocks = Blocks::evaluate(aircraft, state, world, &air);
     let plant = advance(&state.plant, &blocks, &blocks.rate);
     let outputs = outputs(aircraft, &blocks, state, &commands);
