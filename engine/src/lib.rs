@@ -29,6 +29,7 @@ pub mod inputs;
 pub mod landing_gear;
 mod lanes;
 pub mod linearize;
+pub mod mast;
 pub mod math;
 pub mod modes;
 pub mod motion;

@@ -22,10 +22,10 @@
 use super::half_wing::{Inputs, Params};
 use crate::frames::{Body, Structural, Vec3};
 use crate::lanes::{self, LANES, Lanes};
-use crate::math::{PI, clamp, cos, exp, max, min, sin, sqrt, square};
+use crate::math::{PI, clamp, exp, max, min, sqrt, square};
 
 /// Stations over the chord.
-const CHORDWISE: usize = 4;
+pub(super) const CHORDWISE: usize = 4;
 /// Stations over the half span.
 const SPANWISE: usize = 8;
 /// Half the thickness of the wake's edge, parts of the radius.
@@ -91,8 +91,43 @@ impl Stream {
     }
 }
 
-/// Stations of one chordwise place, and the wake that passes there. Lengths are parts of R.
-struct Row {
+/// Stations of one chordwise place, as the rotor sees them. Lengths are parts of R.
+#[derive(Clone, Copy)]
+pub(super) struct Row {
+    /// Where it is in the drawings.
+    station_m: f64,
+    /// Of the stations, ahead of the hub in the disc's plane.
+    ahead: f64,
+    /// Down the wake: where it is negative no wake passes.
+    down: f64,
+    /// To which the wake has contracted.
+    radius: f64,
+}
+
+/// The rows of a half wing.
+pub(super) fn rows(params: &Params, inputs: &Inputs) -> [Row; CHORDWISE] {
+    let (axis, forward) = axes(inputs);
+    let radius_m = inputs.rotor_radius_m;
+    core::array::from_fn(|i| {
+        let part = 1.0 - (i as f64 + 0.5) / CHORDWISE as f64;
+        let station_m = params.trailing_edge_station_m - params.chord_m * part;
+        let point = Vec3::<Structural>::new(station_m, 0.0, params.centre_m.z);
+        let from_hub = point.from_cg(inputs.motion.cg_m) - inputs.hub_from_cg_m;
+        let down = -from_hub.dot(axis) / radius_m;
+        let radius = if down <= 0.0 { 1.0 } else { 0.707 / sqrt(0.5 * (2.0 - exp(-1.197 * down))) };
+        Row { station_m, ahead: from_hub.dot(forward) / radius_m, down, radius }
+    })
+}
+
+/// Along the mast and forward in the disc's plane, its cant aside.
+fn axes(inputs: &Inputs) -> (Vec3<Body>, Vec3<Body>) {
+    let (s, c) = (inputs.mast.sin_tilt, inputs.mast.cos_tilt);
+    (Vec3::new(s, 0.0, -c), Vec3::new(c, 0.0, s))
+}
+
+/// The wake as it passes a row. Lengths are parts of R.
+struct Passing<'a> {
+    stream: &'a Stream,
     /// Of the stations, downwind of the hub.
     x: f64,
     /// Down the wake.
@@ -105,11 +140,11 @@ struct Row {
     aside: f64,
 }
 
-impl Row {
+impl Passing<'_> {
     /// Whether no part of the wake comes near, edge and rounding included.
-    fn is_clear_of(&self, stream: &Stream) -> bool {
+    fn is_elsewhere(&self) -> bool {
         let ends = Lanes::from([self.foremost, -1.0, 0.0, 0.0]);
-        let [foremost, upwind, ..] = stream.place(ends, self.down, self.radius).to_array();
+        let [foremost, upwind, ..] = self.stream.place(ends, self.down, self.radius).to_array();
         // The least x(p) is where its slope is 0, or upwind where air that hardly moves is carried
         // away. No x(p) is greater than the slowest air's with the greatest p.
         let front = min(foremost, upwind);
@@ -120,8 +155,8 @@ impl Row {
     }
 
     /// How far into the wake the stations are that lie `y` to the right of the hub: 0 out, 1 in.
-    fn covered(&self, stream: &Stream, y: Lanes) -> Lanes {
-        let place = |p: Lanes| stream.place(p, self.down, self.radius);
+    fn covered(&self, y: Lanes) -> Lanes {
+        let place = |p: Lanes| self.stream.place(p, self.down, self.radius);
         let eta = (y + self.aside) / self.radius;
         let p = lanes::sqrt(lanes::max(0.0, 1.0 - lanes::square(eta)));
         let front = place(lanes::clamp(self.foremost.into(), -p, p));
@@ -134,8 +169,16 @@ impl Row {
 
 /// The part of the right half wing in its rotor's wake.
 pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
-    let (s, c) = (sin(inputs.mast_tilt_rad), cos(inputs.mast_tilt_rad));
-    let (axis, forward) = (Vec3::<Body>::new(s, 0.0, -c), Vec3::<Body>::new(c, 0.0, s));
+    footprint_of_rows(params, inputs, &rows(params, inputs))
+}
+
+/// The same; `rows` are those of [`rows()`].
+pub(super) fn footprint_of_rows(
+    params: &Params,
+    inputs: &Inputs,
+    rows: &[Row; CHORDWISE],
+) -> Footprint {
+    let (axis, forward) = axes(inputs);
     let hub = inputs.hub_from_cg_m;
     let velocity = inputs.motion.velocity_at(hub);
     let (along_mps, ahead_mps) = (velocity.dot(axis), velocity.dot(forward));
@@ -143,43 +186,34 @@ pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
     let downwind = if ahead_mps < 0.0 { -1.0 } else { 1.0 };
     let sideways_mps = max(stream.down_mps, 0.1 * velocity.y.abs() + SLOWEST.1);
 
-    let radius_m = inputs.rotor_radius_m;
-    let (chord_m, half_span_m) = (params.chord_m, 0.5 * params.span_m);
     let (chordwise, spanwise) = (CHORDWISE as f64, SPANWISE as f64);
     let buttlines_m: [f64; SPANWISE] =
-        core::array::from_fn(|j| half_span_m * (j as f64 + 0.5) / spanwise);
+        core::array::from_fn(|j| 0.5 * params.span_m * (j as f64 + 0.5) / spanwise);
     let (mut part, mut part2, mut station, mut buttline) = (0.0, 0.0, 0.0, 0.0);
     let mut covered = [0.0; SPANWISE];
-    for i in 0..CHORDWISE {
-        let point = Vec3::<Structural>::new(
-            params.trailing_edge_station_m - chord_m * (1.0 - (i as f64 + 0.5) / chordwise),
-            0.0,
-            params.centre_m.z,
-        );
-        let from_hub = point.from_cg(inputs.motion.cg_m) - hub;
-        let down = -from_hub.dot(axis) / radius_m;
+    for &Row { station_m, ahead, down, radius } in rows {
         if down <= 0.0 {
             continue;
         }
-        let radius = 0.707 / sqrt(0.5 * (2.0 - exp(-1.197 * down)));
-        let row = Row {
-            x: -downwind * from_hub.dot(forward) / radius_m,
+        let passing = Passing {
+            stream: &stream,
+            x: -downwind * ahead,
             down,
             radius,
             foremost: stream.foremost(down, radius),
             aside: down * velocity.y / sideways_mps,
         };
-        if row.is_clear_of(&stream) {
+        if passing.is_elsewhere() {
             continue;
         }
         for (j, y_m) in buttlines_m.chunks_exact(LANES).enumerate() {
-            let y = (Lanes::from_fn(|lane| y_m[lane]) - hub.y) / radius_m;
-            let weights = row.covered(&stream, y) / (chordwise * spanwise);
+            let y = (Lanes::from_fn(|lane| y_m[lane]) - hub.y) / inputs.rotor_radius_m;
+            let weights = passing.covered(y) / (chordwise * spanwise);
             let covered = &mut covered[j * LANES..];
             for ((weight, y_m), covered) in weights.to_array().iter().zip(y_m).zip(covered) {
                 *covered += weight * spanwise;
                 part += weight;
-                station += weight * point.x;
+                station += weight * station_m;
                 buttline += weight * y_m;
             }
         }
@@ -195,6 +229,6 @@ pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
     Footprint {
         area_m2: 0.5 * params.area_m2 * part,
         centroid_from_cg_m: centroid.from_cg(inputs.motion.cg_m),
-        chord_m: chord_m * part2 / part,
+        chord_m: params.chord_m * part2 / part,
     }
 }

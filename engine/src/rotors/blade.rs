@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 use super::section::{self, REGIONS, Region};
 use crate::lanes::{self, LANES, Lanes};
-use crate::math::{cos, sin};
+use crate::math::{sin_cos, tan};
 use crate::table::Table1;
 
 /// Elements along a blade.
@@ -132,12 +132,14 @@ pub struct Blade {
     pub stations: [Station; STATIONS],
     /// Sections, from the root.
     pub regions: [Region; REGIONS],
+    /// tan δ3.
+    pub tan_delta3: f64,
     /// The elements in lanes, from the root.
     pub(crate) groups: [Group; STATIONS / LANES],
 }
 
-/// The blade of a rotor of that radius.
-pub fn blade(params: &Params, radius_m: f64) -> Blade {
+/// The blade of a rotor of that radius, hinged under that angle.
+pub fn blade(params: &Params, radius_m: f64, delta3_rad: f64) -> Blade {
     let ends = &params.section.lift_coefficient.x;
     let stations = NODES.map(|(region, at, weight)| {
         let inner = if region > 0 { ends[region - 1] } else { params.root_norm };
@@ -145,7 +147,7 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade {
         let x = inner + 0.5 * width * (1.0 + at);
         let weight_norm = 0.5 * width * weight;
         let chord_m = params.blade_chord_m.at(x);
-        let twist_rad = params.twist_rad.at(x);
+        let (sin_twist, cos_twist) = sin_cos(params.twist_rad.at(x));
         Station {
             region,
             radius_m: x * radius_m,
@@ -155,11 +157,11 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade {
             inner_norm: inner,
             width_norm: width,
             disc_norm: 2.0 * x * weight_norm,
-            sin_twist: sin(twist_rad),
-            cos_twist: cos(twist_rad),
+            sin_twist,
+            cos_twist,
         }
     });
     let regions = params.section.regions(params.root_norm);
     let groups = core::array::from_fn(|group| Group::new(&stations[group * LANES..], &regions));
-    Blade { stations, regions, groups }
+    Blade { stations, regions, tan_delta3: tan(delta3_rad), groups }
 }
