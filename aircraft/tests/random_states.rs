@@ -17,8 +17,8 @@ use engine::inputs::World;
 use engine::math::{PI, exp};
 use engine::pair::Pair;
 use engine::step::derivatives;
-use engine::{Aircraft, Inputs, Outputs, State, step};
-use flying::{Chance, DEG, aloft, parked, violent_flight, xv15};
+use engine::{Aircraft, Inputs, Outputs, State, step, step_state};
+use flying::{Chance, DEG, aloft, assert_same_bits, parked, violent_flight, xv15};
 use serde::Serialize;
 
 /// States of each kind.
@@ -284,6 +284,11 @@ fn hash(xv15: &Aircraft, parked: &State, kind: Kind, counts: &[usize]) -> (Vec<u
         hash.see(&next);
         hash.see(&outputs);
         met.see(&next, &outputs);
+        if seen % 8 == 0 {
+            let mut in_place = *state;
+            step_state(xv15, &mut in_place, inputs);
+            assert_same_bits(&in_place, &next, "the step in place");
+        }
         if kind == Kind::Broken && next.frozen != 0 {
             assert_standing(state, &next);
         }
