@@ -16,9 +16,9 @@ use engine::{Aircraft, Inputs, State, step};
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Setup};
 use recorder::pilots::Pilot;
-use recorder::writer::{Item, Recording};
+use recorder::writer::{Recording, ToRecord};
 use recorder::{Flight, Progress, fly};
-use replay::{Options, Window};
+use replay::{Options, ReflyOptions, Window};
 
 fn main() {
     divan::main();
@@ -52,8 +52,9 @@ fn setup() -> Setup {
 /// A flight by the hover pilot, as fast as it goes.
 fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
     let (aircraft, start) = ready();
-    let pilot = Pilot::named("hover", &aircraft.cockpit).expect("it exists");
-    let initial = start.state(&aircraft).expect("on its wheels");
+    let pilot =
+        Pilot::named("hover", &aircraft.cockpit, &aircraft.envelope.corridor).expect("it exists");
+    let initial = start.on_wheels(&aircraft);
     let out = scratch(name);
     let flight = Flight {
         aircraft,
@@ -79,7 +80,7 @@ fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
 #[divan::bench]
 fn one_tick(bencher: Bencher) {
     let (aircraft, start) = ready();
-    let mut state = start.state(&aircraft).expect("on its wheels");
+    let mut state = start.on_wheels(&aircraft);
     state.cockpit.collective_norm = 0.75;
     let inputs = Inputs { events: &[], world: World::default() };
     for _ in 0..2_000 {
@@ -93,7 +94,7 @@ fn one_tick(bencher: Bencher) {
 #[divan::bench(sample_size = 10)]
 fn hand_over_of_a_tick(bencher: Bencher) {
     let (aircraft, start) = ready();
-    let state = start.state(&aircraft).expect("on its wheels");
+    let state = start.on_wheels(&aircraft);
     let out = scratch("hand-over");
     let identity = Identity::new();
     let writer = FlightWriter::create(&out, &setup(), &identity, &aircraft, "", &state, true)
@@ -102,9 +103,9 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);
-        recording.put(Item::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
-        recording.put(Item::State(State { tick: tick + 1, ..state }));
-        recording.put(Item::Timing(TimingRecord { tick, ..TimingRecord::default() }));
+        recording.put(ToRecord::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
+        recording.put(ToRecord::State(State { tick: tick + 1, ..state }));
+        recording.put(ToRecord::Timing(TimingRecord { tick, ..TimingRecord::default() }));
     });
     recording.finish().0.expect("a whole log");
     let _ = fs::remove_file(out);
@@ -180,8 +181,9 @@ fn start_in_the_ninth_minute(bencher: Bencher, form: &str) {
     let (whole, compact) = ten_minutes();
     let log = if form == "whole" { whole } else { compact };
     let window = Window { from_tick: Some(135_123), until_tick: None, clamped: false };
+    let options = ReflyOptions { window, across_versions: false };
     bencher.bench_local(|| {
-        let mut flight = replay::Reflight::within(log, &window).expect("a log");
+        let mut flight = replay::Reflight::open(log, &options).expect("a log");
         assert!(flight.next_tick().expect("a tick").expect("a tick").exact);
     });
 }

@@ -2,27 +2,13 @@
 
 use std::path::PathBuf;
 
+use analysis::trim::{Power, Target};
 use anyhow::{Context, Result, bail};
-use engine::math::{PI, min};
-use engine::trim::{Power, Target};
+use engine::math::min;
+use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_RADPS};
 use engine::{Aircraft, GRAVITY_MPS2};
 
 use crate::fly;
-
-/// Degrees in a radian.
-pub const DEG: f64 = 180.0 / PI;
-/// Metres in an inch.
-pub const INCH_M: f64 = 0.0254;
-/// Metres in a foot.
-pub const FOOT_M: f64 = 0.3048;
-/// Kilograms in a pound.
-pub const POUND_KG: f64 = 0.453_592_37;
-/// Newtons in a pound of force.
-pub const POUND_N: f64 = POUND_KG * GRAVITY_MPS2;
-/// Metres a second in a knot.
-pub const KNOT_MPS: f64 = 1852.0 / 3600.0;
-/// Radians a second in a revolution a minute.
-pub const RPM_RADPS: f64 = PI / 30.0;
 
 /// Which steady flight.
 #[derive(Clone, clap::Args)]
@@ -91,7 +77,7 @@ fn usual_flap_deg(nacelle_deg: f64) -> f64 {
 /// The detent of a flap lever position, or of the usual one at a nacelle incidence.
 pub fn flap_detent(aircraft: &Aircraft, flap_deg: Option<f64>, nacelle_deg: f64) -> Result<u64> {
     let wanted_deg = flap_deg.unwrap_or_else(|| usual_flap_deg(nacelle_deg));
-    let offered = aircraft.fcc.mixer.flap_rad.map(|rad| rad * DEG);
+    let offered = aircraft.fcc.mixer.flap_rad.map(|rad| rad * DEG_PER_RAD);
     let Some(detent) = offered.iter().position(|deg| (deg - wanted_deg).abs() < 0.5) else {
         bail!("--flap {wanted_deg}: the lever has detents at {offered:.0?} deg");
     };
@@ -124,14 +110,14 @@ impl Condition {
         let airspeed_mps = self.speed_kt * KNOT_MPS;
         let (aircraft, fuel_kg) = weigh(aircraft, self.weight_lb * POUND_KG)?;
         let target = Target {
-            mast_tilt_rad: (90.0 - self.nacelle) / DEG,
+            mast_tilt_rad: (90.0 - self.nacelle) / DEG_PER_RAD,
             airspeed_mps,
             power: match self.lever {
                 Some(percent) => Power::Lever(0.01 * percent),
                 None => Power::Climb(self.climb_fpm * FOOT_M / 60.0),
             },
             turn_radps: self.turn_radps(airspeed_mps)?,
-            sideslip_rad: self.sideslip_deg / DEG,
+            sideslip_rad: self.sideslip_deg / DEG_PER_RAD,
             altitude_m: self.altitude_ft * FOOT_M,
             fuel_kg,
             flap_detent: flap_detent(&aircraft, self.flap, self.nacelle)?,
@@ -149,11 +135,11 @@ impl Condition {
     }
 
     fn turn_radps(&self, airspeed_mps: f64) -> Result<f64> {
-        let Some(bank_deg) = self.bank_deg else { return Ok(self.turn_degps / DEG) };
+        let Some(bank_deg) = self.bank_deg else { return Ok(self.turn_degps / DEG_PER_RAD) };
         if airspeed_mps < 5.0 || bank_deg.abs() > 75.0 {
             bail!("--bank-deg: expected up to 75 deg, and some speed to turn with");
         }
-        Ok(GRAVITY_MPS2 * engine::math::tan(bank_deg / DEG) / airspeed_mps)
+        Ok(GRAVITY_MPS2 * engine::math::tan(bank_deg / DEG_PER_RAD) / airspeed_mps)
     }
 }
 

@@ -158,13 +158,7 @@ fn event(event: Option<&DeviceEvent>) -> String {
     let Some(DeviceEvent { kernel_time_ns, device, kind, code, value, .. }) = event else {
         return "nothing".into();
     };
-    let kind = match EventKind::from_u64(*kind) {
-        Some(EventKind::Axis) => "axis",
-        Some(EventKind::Button) => "button",
-        Some(EventKind::Connected) => "connected",
-        Some(EventKind::Disconnected) => "disconnected",
-        None => "event",
-    };
+    let kind = EventKind::from_u64(*kind).map_or("event", |kind| kind.facts().key);
     format!("device {device} {kind} 0x{code:x} = {value}, at the kernel's time {kernel_time_ns} ns")
 }
 

@@ -168,6 +168,7 @@ impl Plan {
                 aircraft.name
             );
         }
+        let robot_description = aircraft::urdf(&aircraft);
         let link = if common.no_flightgear { None } else { Some(Link::new(&common.flightgear)?) };
         if common.out.exists() && !common.force {
             bail!(
@@ -182,7 +183,7 @@ impl Plan {
                 start,
                 setup: Setup { aircraft_toml, cockpit_toml: String::new(), scenario_toml },
                 identity: identity::identity(),
-                robot_description: include_str!("../aircraft/xv15.urdf").to_string(),
+                robot_description,
                 hands: Vec::new(),
                 #[cfg(feature = "sticks")]
                 sticks: None,
@@ -220,7 +221,7 @@ impl Plan {
 
     /// Lets the pilot model of that name fly.
     pub fn set_pilot(&mut self, name: &str, map: &cockpit::Params) -> Result<()> {
-        let Some(pilot) = Pilot::named(name, map) else {
+        let Some(pilot) = Pilot::named(name, map, &self.flight.aircraft.envelope.corridor) else {
             bail!("no pilot model is called `{name}`; there are {}", pilot_names());
         };
         self.phases = pilot.phases();
@@ -275,7 +276,7 @@ impl Plan {
                     "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  {} late  {}",
                     now.tick as f64 * STEP_S,
                     now.height_m,
-                    report::knots(now.airspeed_mps),
+                    engine::units::knots(now.airspeed_mps),
                     report::compass_deg(now.heading_rad),
                     now.overruns,
                     phase.unwrap_or(&"")

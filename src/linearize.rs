@@ -4,13 +4,15 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use analysis::linearize::{INPUTS, Linear, OUTPUTS, decibels, linearize};
+use analysis::modes::{Mode, modes};
+use analysis::trim::{Trim, trim};
+use analysis::{Complex, Matrix, Polar, Unsolved};
 use anyhow::{Context, Result};
-use engine::dense::Matrix;
-use engine::linearize::{Linear, decibels, linearize};
-use engine::modes::modes;
-use engine::trim::trim;
+use engine::units::{DEG_PER_RAD as DEG, INCH_M};
 
-use crate::condition::{Condition, DEG, INCH_M};
+use crate::condition::Condition;
+use crate::report;
 
 /// About which steady flight.
 #[derive(clap::Args)]
@@ -26,7 +28,7 @@ pub struct Args {
     /// Print frequency responses
     #[arg(long)]
     response: bool,
-    /// Write the matrices to a file, one number a line, units in the names
+    /// Write matrices and eigenvalues to a file, one number a line, units in the names
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 }
@@ -77,80 +79,130 @@ const OMEGAS: [f64; 11] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.
 /// Trims, linearises, and prints modes and matrices.
 pub fn run(args: &Args) -> Result<ExitCode> {
     let (aircraft, target) = args.condition.read()?;
-    let trim = trim(&aircraft, &target).map_err(anyhow::Error::new).context("no steady flight")?;
+    let trim = match trim(&aircraft, &target) {
+        Ok(trim) => trim,
+        Err(failure) => return Ok(unsolved(&format!("no steady flight: {failure}"))),
+    };
     let linear = linearize(&aircraft, &trim, &target.world);
-    say!(
-        "about {:.1} kt, nacelles {:.0} deg, pitch {:.2} deg, SCAS {}",
-        args.condition.speed_kt,
-        args.condition.nacelle,
-        trim.report.pitch_rad * DEG,
-        if args.condition.scas { "on" } else { "off" }
-    );
-    say!("{:<28} {:>20} {:>9} {:>7} {:>9}  led by", "mode", "eigenvalue", "omega", "zeta", "tau");
-    say!("{:<28} {:>20} {:>9} {:>7} {:>9}", "", "1/s", "rad/s", "-", "s");
-    for mode in modes(&linear, target.airspeed_mps) {
-        if mode.fast && !args.fast {
-            continue;
+    match Found::new(args, &linear, target.airspeed_mps) {
+        Ok(found) => {
+            found.print(args, &trim, &linear);
+            if let Some(path) = &args.csv {
+                fs::write(path, csv(&linear, &found.eigenvalues))
+                    .with_context(|| format!("cannot write {}", path.display()))?;
+            }
+            Ok(ExitCode::SUCCESS)
         }
-        let value = if mode.swings() {
-            format!("{:.4} ± {:.4}j", mode.eigenvalue.re, mode.eigenvalue.im)
-        } else {
-            format!("{:.4}", mode.eigenvalue.re)
+        Err(why) => Ok(unsolved(&why.to_string())),
+    }
+}
+
+/// Says that there is no answer; nothing of it is printed or written.
+fn unsolved(why: &str) -> ExitCode {
+    complain!("tiltrotor: {why}");
+    ExitCode::from(report::NO_TRIM)
+}
+
+/// What is found of a linear system.
+struct Found {
+    eigenvalues: Vec<Complex>,
+    modes: Vec<Mode>,
+    /// Of each of [`RESPONSES`], over [`OMEGAS`]; none when not asked for.
+    responses: Vec<Vec<Complex>>,
+}
+
+impl Found {
+    fn new(args: &Args, linear: &Linear, airspeed_mps: f64) -> Result<Self, Unsolved> {
+        let over = |response: &Response| {
+            let at = |&omega: &f64| linear.response(response.input, response.output, omega);
+            OMEGAS.iter().map(at).collect()
         };
+        let asked = if args.response { &RESPONSES[..] } else { &[] };
+        Ok(Self {
+            eigenvalues: linear.eigenvalues()?,
+            modes: modes(linear, airspeed_mps)?,
+            responses: asked.iter().map(over).collect::<Result<_, _>>()?,
+        })
+    }
+
+    fn print(&self, args: &Args, trim: &Trim, linear: &Linear) {
         say!(
-            "{:<28} {value:>20} {:>9.3} {:>7.3} {:>9.2}  {}",
-            mode.name,
-            mode.frequency_radps(),
-            mode.damping(),
-            mode.time_s(),
-            mode.state
+            "about {:.1} kt, nacelles {:.0} deg, pitch {:.2} deg, SCAS {}",
+            args.condition.speed_kt,
+            args.condition.nacelle,
+            trim.report.pitch_rad * DEG,
+            if args.condition.scas { "on" } else { "off" }
         );
-    }
-    if args.response {
-        responses(&linear);
-    }
-    if args.matrices {
-        for (name, matrix, rows, columns) in named(&linear) {
-            say!("\n{name} (rows: {})", rows.join(", "));
-            say!("  columns: {}", columns.join(", "));
-            for row in 0..matrix.rows() {
-                let numbers: Vec<String> =
-                    matrix.row(row).iter().map(|value| format!("{value:12.5e}")).collect();
-                say!("  {}", numbers.join(" "));
+        say!(
+            "{:<28} {:>20} {:>9} {:>7} {:>9}  led by",
+            "mode",
+            "eigenvalue",
+            "omega",
+            "zeta",
+            "tau"
+        );
+        say!("{:<28} {:>20} {:>9} {:>7} {:>9}", "", "1/s", "rad/s", "-", "s");
+        for mode in self.modes.iter().filter(|mode| args.fast || !mode.fast) {
+            line(mode);
+        }
+        for (response, over) in RESPONSES.iter().zip(&self.responses) {
+            say!("\n{}", response.name);
+            say!("{:>9} {:>12} {:>9}", "rad/s", format!("dB {}", response.unit), "deg");
+            for (omega, g) in OMEGAS.iter().zip(over) {
+                let gain_db = decibels(g.magnitude() * response.factor);
+                say!("{omega:>9.2} {gain_db:>12.1} {:>9.0}", g.phase_rad() * DEG);
             }
         }
-    }
-    if let Some(path) = &args.csv {
-        fs::write(path, csv(&linear))
-            .with_context(|| format!("cannot write {}", path.display()))?;
-    }
-    Ok(ExitCode::SUCCESS)
-}
-
-fn responses(linear: &Linear) {
-    for response in &RESPONSES {
-        say!("\n{}", response.name);
-        say!("{:>9} {:>12} {:>9}", "rad/s", format!("dB {}", response.unit), "deg");
-        for omega in OMEGAS {
-            let g = linear.response(response.input, response.output, omega);
-            let gain_db = decibels(g.abs() * response.factor);
-            say!("{omega:>9.2} {gain_db:>12.1} {:>9.0}", g.arg_rad() * DEG);
+        if args.matrices {
+            matrices(linear);
         }
     }
 }
 
-type Named<'a> = (&'static str, &'a Matrix, &'a [String], &'a [String]);
+fn line(mode: &Mode) {
+    let value = if mode.swings() {
+        format!("{:.4} ± {:.4}j", mode.eigenvalue.re, mode.eigenvalue.im)
+    } else {
+        format!("{:.4}", mode.eigenvalue.re)
+    };
+    say!(
+        "{:<28} {value:>20} {:>9.3} {:>7.3} {:>9.2}  {}",
+        mode.name,
+        mode.frequency_radps(),
+        mode.damping(),
+        mode.time_s(),
+        mode.state
+    );
+}
+
+fn matrices(linear: &Linear) {
+    for (name, matrix, rows, columns) in named(linear) {
+        say!("\n{name} (rows: {})", rows.join(", "));
+        say!("  columns: {}", columns.join(", "));
+        for row in matrix.row_iter() {
+            let numbers: Vec<String> = row.iter().map(|value| format!("{value:12.5e}")).collect();
+            say!("  {}", numbers.join(" "));
+        }
+    }
+}
+
+/// A matrix with its name and those of its rows and columns.
+type Named<'a> = (&'static str, &'a Matrix, Vec<String>, Vec<String>);
 
 fn named(linear: &Linear) -> [Named<'_>; 4] {
+    let states = || linear.states.iter().map(ToString::to_string).collect();
+    let inputs = || INPUTS.iter().map(ToString::to_string).collect();
+    let outputs = || OUTPUTS.iter().map(ToString::to_string).collect();
     [
-        ("A", &linear.a, &linear.states, &linear.states),
-        ("B", &linear.b, &linear.states, &linear.inputs),
-        ("C", &linear.c, &linear.outputs, &linear.states),
-        ("D", &linear.d, &linear.outputs, &linear.inputs),
+        ("A", &linear.a, states(), states()),
+        ("B", &linear.b, states(), inputs()),
+        ("C", &linear.c, outputs(), states()),
+        ("D", &linear.d, outputs(), inputs()),
     ]
 }
 
-fn csv(linear: &Linear) -> String {
+/// Every number to the bit: the matrices, then all eigenvalues of A, numbered from the slowest.
+fn csv(linear: &Linear, eigenvalues: &[Complex]) -> String {
     let mut text = String::from("matrix,row,column,value\n");
     for (name, matrix, rows, columns) in named(linear) {
         for (i, row) in rows.iter().enumerate() {
@@ -158,6 +210,10 @@ fn csv(linear: &Linear) -> String {
                 text += &format!("{name},{row},{column},{}\n", matrix[(i, j)]);
             }
         }
+    }
+    for (i, eigenvalue) in eigenvalues.iter().enumerate() {
+        text += &format!("eigenvalue,{i},re_per_s,{}\n", eigenvalue.re);
+        text += &format!("eigenvalue,{i},im_radps,{}\n", eigenvalue.im);
     }
     text
 }

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use engine::STEP_S;
 use logs::evolution::Difference;
-use logs::{Ending, FlightReader, LogError, Messages};
+use logs::{Ending, LogError, Messages, OpenOptions};
 use recorder::statistics::Statistics;
 
 use crate::report;
@@ -71,9 +71,10 @@ pub fn run(command: &Command) -> Result<ExitCode> {
 }
 
 fn info(log: &Path) -> Result<ExitCode> {
-    // A compacted log is this version's, or nobody's.
-    let opened = match FlightReader::open_across_versions(log) {
-        Err(LogError::Compacted) => replay::open(log),
+    let across = OpenOptions { aircraft_of: None, across_versions: true };
+    let opened = match logs::open(log, across) {
+        // A compacted log is this version's, or nobody's.
+        Err(LogError::Compacted) => logs::open(log, replay::OPEN),
         opened => opened,
     };
     let mut reader = match opened {
@@ -135,7 +136,7 @@ fn info(log: &Path) -> Result<ExitCode> {
     for (name, facts) in &reader.other_facts {
         say_facts(&format!("{name}."), facts);
     }
-    for (topic, difference) in reader.differences()? {
+    for (topic, difference) in reader.differences() {
         let Difference { missing, ignored } = difference;
         say!(
             "  {topic:<16} {} fields of today are not in it, {} of its fields are not known today",
@@ -198,9 +199,9 @@ fn say_facts(of: &str, facts: &BTreeMap<String, String>) {
 
 /// What any version can say of a log: what it says of itself, and how many messages there are.
 fn what_is_there(log: &Path) -> Result<ExitCode> {
-    let mut messages = Messages::open(log)?;
+    let mut messages = Messages::open(log, OpenOptions::default())?;
     let mut channels: BTreeMap<String, (u64, usize)> = BTreeMap::new();
-    for message in &mut messages {
+    while let Some(message) = messages.next_message() {
         let numbers = message.layout().map_or(0, |layout| layout.numbers().len());
         let (count, _) = channels.entry(message.topic().into()).or_insert((0, numbers));
         *count += 1;

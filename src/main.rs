@@ -65,7 +65,8 @@ enum Command {
     Log(log::Command),
     /// Steady flight: attitude, controls, power. Exit 0 trimmed, 5 no trim.
     Trim(trim::Args),
-    /// Small motions about a steady flight: modes, frequency responses, state-space matrices.
+    /// Small motions about a steady flight: modes, frequency responses, state-space matrices. Exit 0
+    /// solved, 5 no steady flight, or not converged.
     Linearize(linearize::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),

@@ -8,7 +8,7 @@ use engine::STEP_S;
 use flightgear::Link;
 use logs::Ending;
 use recorder::Pace;
-use replay::Reflight;
+use replay::{Reflight, ReflyOptions};
 
 use crate::report;
 use crate::window::WindowArgs;
@@ -37,11 +37,9 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
     let window = args.window.of(&args.log)?;
-    let mut flight = match args.across_versions {
-        true => Reflight::open_across_versions(&args.log),
-        false => Reflight::within(&args.log, &window),
-    }
-    .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
+    let options = ReflyOptions { window, across_versions: args.across_versions };
+    let mut flight = Reflight::open(&args.log, &options)
+        .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
     let pace = Pace::at_speed(args.speed);
@@ -49,10 +47,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let mut first_difference = None;
     while let Some(reflown) = flight.next_tick()? {
         pace.wait(ticks);
-        link.send(&reflown.outputs);
+        link.send(reflown.outputs);
+        let exact = reflown.exact;
         flight.reader.forget();
         ticks += 1;
-        if !reflown.exact && first_difference.is_none() {
+        if !exact && first_difference.is_none() {
             first_difference = Some(ticks);
             complain!(
                 "tiltrotor: from {:.3} s on this is not the recorded flight; `tiltrotor verify` says more",
@@ -70,7 +69,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         link.destination(),
         link.dropped()
     );
-    let versions = flight.versions()?;
+    let versions = flight.versions();
     if let Some(versions) = &versions {
         say!("{versions}");
     }

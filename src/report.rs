@@ -1,7 +1,7 @@
 //! What a flight prints when it is over, and the exit statuses.
 
 use engine::STEP_S;
-use engine::math::PI;
+use engine::units::degrees;
 use logs::LogError;
 use recorder::Landing;
 use recorder::statistics::Durations;
@@ -15,7 +15,7 @@ pub const UNUSABLE: u8 = 2;
 pub const NEVER_CLOSED: u8 = 3;
 /// The flight went on, but its log ends early.
 pub const LOG_CUT_SHORT: u8 = 4;
-/// There is no such steady flight.
+/// There is no such steady flight, or what was asked of it has not converged.
 pub const NO_TRIM: u8 = 5;
 /// A log of another version, flown for comparison.
 pub const COMPARED: u8 = 6;
@@ -33,14 +33,9 @@ pub fn refusal(error: &ReplayError) -> String {
 /// Latency beyond which CS-FSTD(A) refuses a simulator.
 const LATENCY_LIMIT_MS: f64 = 150.0;
 
-/// Mean knots of a speed.
-pub fn knots(mps: f64) -> f64 {
-    mps * 3600.0 / 1852.0
-}
-
 /// Heading as a compass shows it, 0..360.
 pub fn compass_deg(heading_rad: f64) -> f64 {
-    (heading_rad * 180.0 / PI).rem_euclid(360.0)
+    degrees(heading_rad).rem_euclid(360.0)
 }
 
 /// Sums up a flight on standard output.

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use analysis::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
 use anyhow::{Context, Result};
-use engine::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
+use engine::units::{DEG_PER_RAD as DEG, FOOT_M, HOUR_S, INCH_M, KNOT_MPS, POUND_KG, POUND_N};
 
-use crate::condition::{Condition, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, POUND_N, sweep};
+use crate::condition::{Condition, sweep};
 use crate::report;
 
 /// Which steady flight, or flights.
@@ -79,7 +80,7 @@ const COLUMNS: [Column; 23] = [
     column("power", "kW", 0, |t| 1e-3 * t.report.power_w),
     column("available", "kW", 0, |t| 1e-3 * t.report.available_w),
     column("mast torque", "kN m", 2, |t| 1e-3 * t.report.torque_n_m),
-    column("fuel", "lb/h", 0, |t| t.report.fuel_flow_kg_per_s * 3600.0 / POUND_KG),
+    column("fuel", "lb/h", 0, |t| t.report.fuel_flow_kg_per_s * HOUR_S / POUND_KG),
     column("download", "lbf", 0, |t| t.report.download_n / POUND_N),
 ];
 

@@ -31,7 +31,7 @@ mod with_rerun {
     use anyhow::{Context, bail};
     use engine::STEP_NS;
     use replay::view::{DrawError, FlightView, Other, Severity, draw_against};
-    use replay::{Reflight, Window};
+    use replay::{Reflight, ReflyOptions, Window};
 
     use super::{Args, ExitCode, Result};
 
@@ -84,12 +84,13 @@ mod with_rerun {
 
     /// Reflies the log into a recording; returns its size.
     pub fn save(log: &Path, saved: &Path, window: &Window) -> Result<u64> {
+        let options = ReflyOptions { window: *window, across_versions: false };
         let mut flight =
-            Reflight::within(log, window).with_context(|| log.display().to_string())?;
+            Reflight::open(log, &options).with_context(|| log.display().to_string())?;
         let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
-        let mut view = FlightView::new(saved, &title)?;
+        let mut view = FlightView::new(saved, &title, &flight.aircraft)?;
         while let Some(reflown) = flight.next_tick()? {
-            view.push(&reflown.outputs);
+            view.push(reflown.outputs);
             flight.reader.timings.clear();
         }
         for remark in &flight.reader.remarks {

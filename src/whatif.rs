@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use engine::math::{PI, atan2, min, sqrt};
+use engine::math::{atan2, min, sqrt};
+use engine::units::{degrees, knots};
 use engine::{Outputs, STEP_S, State};
 use replay::{NewLog, Window, names_parent, parent, rewrite};
 
+use crate::identity;
 use crate::window::When;
-use crate::{identity, report};
 
 /// What to change, and from when on.
 #[derive(clap::Args)]
@@ -40,7 +41,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitCode> {
     let log = &args.log;
     let name = || log.display().to_string();
-    let mut reader = replay::open(log).with_context(name)?;
+    let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
     let mut setup = reader.setup.clone();
     let mut changes = Vec::new();
     if let Some(path) = &args.aircraft {
@@ -134,9 +135,9 @@ impl Apart {
         let (a, b) = (was.attitude, is.attitude);
         let cosine = min((a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z).abs(), 1.0);
         let sine = sqrt(1.0 - cosine * cosine);
-        self.attitude_deg = 2.0 * atan2(sine, cosine) * 180.0 / PI;
-        self.airspeed_kt = report::knots(is.velocity_mps.norm() - was.velocity_mps.norm());
-        if outputs.validity != 0 {
+        self.attitude_deg = degrees(2.0 * atan2(sine, cosine));
+        self.airspeed_kt = knots(is.velocity_mps.norm() - was.velocity_mps.norm());
+        if !outputs.validity.is_empty() {
             self.outside.get_or_insert(state.tick);
         }
     }

@@ -197,7 +197,7 @@ fn a_number_that_no_control_has_is_named_with_its_event() {
     refused_script("nan", &event("axis = { stick_aft = nan }"))
         .says("axis.stick_aft: expected -1 to 1, got NaN");
     refused_script("name", &event("axis = { stick_up = 0.1 }"))
-        .says("axis.stick_up: expected stick_aft, stick_right, collective");
+        .says("axis.stick_up: expected one of stick_aft, stick_right, collective, pedal_right, ");
     refused_script("wind", &event("wind = { from_deg = 270.0, kt = 900.0 }"))
         .says("wind: expected 0 to 200 kt, got 900 kt");
     refused_script("past", "[[event]]\nat_s = -1.0\n").says("at_s: expected 0 s or later, got -1");

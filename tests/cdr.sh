@@ -11,9 +11,9 @@ if [ -z "$tiltrotor" ]; then
 fi
 
 venv=target/venv-cdr
-if [ ! -x "$venv/bin/python" ]; then
+if [ ! -x "$venv/bin/python" ] || ! "$venv/bin/python" -c "import mcap_ros2, numpy"; then
     python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet mcap==1.6.0 mcap-ros2-support==0.6.0
+    "$venv/bin/pip" install --quiet mcap==1.6.0 mcap-ros2-support==0.6.0 numpy==2.4.6
 fi
 
 work=$(mktemp -d)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # One flight, reflown to the same bits by every build and on every kind of CPU at hand: debug, release,
 # release for this very CPU with link-time optimisation, a C library that may not use AVX2 and FMA,
-# and, where qemu is installed, a CPU that has neither, and 64-bit Arm.
+# and, where qemu is installed, a CPU that has neither, and 64-bit Arm. And steady flights with what
+# `linearize` finds about them, to the same bytes.
 # Usage: tests/determinism.sh
 #        TILTROTOR_AARCH64=build tests/determinism.sh   with one for 64-bit Arm, which takes minutes: needs
 #        qemu-user, gcc-aarch64-linux-gnu, libc6-dev-arm64-cross, rustup target add aarch64-unknown-linux-gnu
@@ -33,9 +34,30 @@ native=target/native/release/tiltrotor
 
 passed=0
 skipped=0
+# Trims, modes, responses and every number of the matrices: all that is computed with matrices of any size.
+linear() { # FOLDER, command...
+    local to=$1 conditions=("--nacelle 90 --speed-kt 30" "--nacelle 60 --speed-kt 80 --turn-degps 3"
+        "--nacelle 0 --speed-kt 180") i
+    shift
+    mkdir -p "$to"
+    for i in "${!conditions[@]}"; do
+        read -ra flight <<<"${conditions[$i]} --scas"
+        "$@" linearize "${flight[@]}" --fast --response --matrices --csv "$to/$i.csv" >"$to/$i.txt"
+        "$@" trim "${flight[@]}" --csv "$to/$i-trim.csv" >"$to/$i-trim.txt"
+    done
+}
+linear "$work/linear" "$release"
+
 exact() { # WHAT, command...
     local what=$1
     shift
+    rm -rf "$work/linear-here"
+    linear "$work/linear-here" "$@"
+    if ! diff -r "$work/linear" "$work/linear-here" >"$work/out.txt"; then
+        printf 'DIVERGED %s: trim and linearize\n' "$what"
+        head -20 "$work/out.txt"
+        exit 1
+    fi
     if "$@" verify "$work/flight.mcap" >"$work/out.txt" 2>&1; then
         printf 'exact    %s\n' "$what"
         passed=$((passed + 1))

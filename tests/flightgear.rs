@@ -12,7 +12,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use common::{OK, Said, command, folder, said, text, tiltrotor, verify};
-use logs::FlightReader;
+use logs::OpenOptions;
 
 /// FGNetFDM 24.
 const LENGTH: usize = 408;
@@ -88,7 +88,7 @@ fn flightgear_gets_a_whole_picture_every_tick() {
 #[test]
 fn flightgear_sees_the_aircraft_where_the_log_says_it_is() {
     let (log, packets) = flight();
-    let mut reader = FlightReader::open(log).expect("a log");
+    let mut reader = logs::open(log, OpenOptions::default()).expect("a log");
     let origin = reader.initial.plant.origin;
     let mut heights = Vec::new();
     for (_, packet) in packets {

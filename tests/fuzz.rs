@@ -18,7 +18,7 @@ use engine::inputs::World;
 use engine::{Inputs, Outputs, State, step};
 use flightgear::net_fdm::NetFdm;
 use logs::records::{EVENTS, HARDWARE, INPUTS, OUTPUTS, STATE, TIMING};
-use logs::{Ending, FlightReader, LogError, Messages};
+use logs::{Ending, FlightReader, LogError, Messages, OpenOptions};
 use recorder::script::Script;
 use recorder::{Hands, Reach};
 use replay::{Options, Outcome, verify};
@@ -269,7 +269,8 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
             let (kept, flown) = (flight(&Forgery::of(&fixed)), flight(&whole));
             assert!(kept.len() <= flown.len() && kept == flown[..kept.len()], "upgraded");
         }
-        for message in Messages::open(&broken).expect("a file") {
+        let mut messages = Messages::open(&broken, OpenOptions::default()).expect("a file");
+        while let Some(message) = messages.next_message() {
             let _ = message.fields();
         }
     });
@@ -302,7 +303,7 @@ fn no_bytes_of_a_log_break_looking_things_up_in_it() {
         fs::write(&file, bytes).expect("a file");
         let _ = logs::closing(&file);
         let _ = logs::marker(&file, 1).map_err(|error| error.to_string());
-        if let Ok(mut reader) = FlightReader::open(&file) {
+        if let Ok(mut reader) = logs::open(&file, OpenOptions::default()) {
             let sought = reader.seek(30);
             if sought.is_ok() && reader.intact {
                 while let Ok(Some(tick)) = reader.next_tick() {
@@ -330,7 +331,8 @@ fn no_bytes_of_a_compacted_log_break_its_reader() {
     };
     fuzz("compacted", 300, make, |broken| {
         fs::write(&file, broken).expect("a file");
-        let Ok(mut reader) = FlightReader::open_any(&file, flown) else { return };
+        let open = OpenOptions { aircraft_of: Some(flown), across_versions: false };
+        let Ok(mut reader) = logs::open(&file, open) else { return };
         let (mut ticks, mut whole) = (0, reader.intact);
         while let Ok(Some(tick)) = reader.next_tick() {
             ticks += 1;
@@ -360,8 +362,7 @@ fn start(text: &str) -> Option<engine::start::Start> {
 
 fn fly_a_little(aircraft: &engine::Aircraft, start: &engine::start::Start) {
     // Standing: to find a steady flight takes a long time, and is no reader's work.
-    let start = engine::start::Start { trim: None, ..*start };
-    let Ok(mut state) = start.state(aircraft) else { return };
+    let mut state = start.on_wheels(aircraft);
     for _ in 0..3 {
         let inputs = Inputs { events: &[], world: start.world.world() };
         let (next, _): (State, Outputs) = step(aircraft, &state, &inputs);
@@ -389,7 +390,7 @@ fn no_scenario_breaks_its_reader_and_what_it_accepts_can_be_flown() {
 #[test]
 fn no_cockpit_map_and_no_device_event_breaks_the_cockpit() {
     let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15");
-    let state = start(SCENARIO).expect("ours").state(&xv15).expect("a state");
+    let state = start(SCENARIO).expect("ours").on_wheels(&xv15);
     let seed = format!("{STICK_MAP}\n{}", aircraft::PILOT_MAP);
     fuzz(
         "cockpit",

@@ -20,7 +20,7 @@ use common::{
     Dice, INCOMPLETE, LOG_CUT_SHORT, OK, command, folder, said, text, tiltrotor, understood, verify,
 };
 use engine::STEP_NS;
-use logs::{Ending, FlightReader};
+use logs::{Ending, OpenOptions};
 
 /// At most this much of a flight may be lost.
 const LOST_MAX: Duration = Duration::from_millis(250);
@@ -120,7 +120,7 @@ impl Flight {
 
 /// What is in a log: its last tick and when that was flown, since the Unix epoch.
 fn recorded(log: &Path) -> (u64, Duration, Ending) {
-    let mut reader = FlightReader::open(log).expect("a flight log");
+    let mut reader = logs::open(log, OpenOptions::default()).expect("a flight log");
     let started = reader.identity.get("started_unix_ns").parse().expect("a time");
     let (mut last, mut wall_ns) = (0, started);
     while let Some(tick) = reader.next_tick().expect("whole ticks") {

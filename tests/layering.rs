@@ -14,10 +14,11 @@ use tree::{manifest, root};
 const ARROWS: &[(&str, &[&str])] = &[
     ("engine", &[]),
     ("aircraft", &["engine"]),
+    ("analysis", &["engine"]),
     ("flightgear", &["engine"]),
     ("logs", &["engine"]),
-    ("recorder", &["aircraft", "engine", "flightgear", "logs"]),
-    ("replay", &["aircraft", "engine", "logs"]),
+    ("recorder", &["aircraft", "analysis", "engine", "flightgear", "logs"]),
+    ("replay", &["aircraft", "analysis", "engine", "logs"]),
 ];
 
 /// Crates of others that one crate of ours alone may know.
@@ -34,7 +35,10 @@ const KEPT: &[(&str, &str)] = &[
 ];
 
 /// All that the engine may know of the world.
-const ENGINE_KNOWS: &[&str] = &["libm", "nalgebra", "serde", "wide"];
+const ENGINE_KNOWS: &[&str] = &["bitflags", "libm", "nalgebra", "serde", "wide"];
+
+/// All that the analysis beside it may know.
+const ANALYSIS_KNOWS: &[&str] = &["engine", "nalgebra"];
 
 /// The packages of every workspace in the tree by name, with their manifests; the command, the root
 /// package, is not among them.
@@ -127,6 +131,26 @@ fn the_engine_s_arithmetic_is_pinned() {
     let nalgebra = &dependencies["nalgebra"];
     assert_eq!(nalgebra["default-features"].as_bool(), Some(false));
     assert_eq!(nalgebra["features"], Value::from(vec!["libm-force"]));
+}
+
+/// What begins in trim, and what is printed of it, is the same on every CPU: no product of matrices by a
+/// library that looks for FMA.
+#[test]
+fn the_analysis_knows_the_engine_and_matrices_without_the_standard_library() {
+    let analysis = manifest(&root().join("engine/analysis"));
+    let allowed = ANALYSIS_KNOWS.iter().map(|name| (*name).to_string()).collect();
+    assert_eq!(dependencies(&analysis), allowed);
+    let nalgebra = &analysis["dependencies"]["nalgebra"];
+    assert_eq!(nalgebra["workspace"].as_bool(), Some(true));
+    assert_eq!(nalgebra["features"], Value::from(vec!["alloc"]));
+    let source = fs::read_to_string(root().join("engine/analysis/src/lib.rs")).expect("analysis");
+    assert!(source.lines().any(|line| line == "#![no_std]"), "analysis: no_std");
+    let lock: Table =
+        fs::read_to_string(root().join("Cargo.lock")).expect("a lock").parse().expect("TOML");
+    let packages = lock["package"].as_array().expect("packages");
+    let of_nalgebra = packages.iter().find(|package| package["name"].as_str() == Some("nalgebra"));
+    let its = of_nalgebra.expect("nalgebra")["dependencies"].as_array().expect("its dependencies");
+    assert!(!its.contains(&Value::from("matrixmultiply")), "nalgebra with std");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use common::{
     place_of, text, tiltrotor, verify,
 };
 use logs::records::{HARDWARE, INPUTS, OUTPUTS, STATE, TIMING, TimingRecord};
-use logs::{Ending, FlightReader, Tick};
+use logs::{Ending, OpenOptions, Tick};
 
 /// Two seconds by the pilot model.
 fn flight() -> &'static Path {
@@ -29,13 +29,13 @@ fn recover(broken: &Path, fixed: &Path) -> Said {
 
 /// All ticks of a log, as far as they can be read and follow from each other.
 fn ticks(log: &Path) -> Vec<Tick> {
-    let mut reader = FlightReader::open(log).expect("a flight log");
+    let mut reader = logs::open(log, OpenOptions::default()).expect("a flight log");
     let mut ticks = Vec::new();
     while let Ok(Some(tick)) = reader.next_tick() {
         if !tick.chained {
             break;
         }
-        ticks.push(tick);
+        ticks.push(tick.clone());
     }
     ticks
 }
@@ -240,7 +240,7 @@ fn a_recovered_log_is_a_proper_file_whose_flight_is_not_whole() {
     let again = place.join("again.mcap");
     recovered(&cut, &again).expect("recovered");
     verify(&again).says("it was recovered from cut again.mcap, from cut.mcap up to tick ");
-    let mut reader = FlightReader::open(&fixed).expect("a log");
+    let mut reader = logs::open(&fixed, OpenOptions::default()).expect("a log");
     while reader.next_tick().expect("whole ticks").is_some() {}
     assert_eq!(reader.ending(), Some(&Ending::Truncated));
 }

@@ -10,7 +10,7 @@ use common::{
     DIVERGED, Dice, Forgery, INCOMPLETE, OK, Said, UNUSABLE, flip_state_bit, folder, hover, text,
     tiltrotor, verify,
 };
-use logs::FlightReader;
+use logs::OpenOptions;
 use logs::records::{STATE, StateRecord};
 
 /// A demonstration flight of thirty seconds: start, lift-off, hover.
@@ -46,7 +46,7 @@ fn compacted(log: &Path, name: &str) -> PathBuf {
 
 /// The states of a log from a tick on, as they are read.
 fn states(log: &Path, from: u64, until: u64) -> Vec<StateRecord> {
-    let mut reader = replay::open(log).expect("a log");
+    let mut reader = logs::open(log, replay::OPEN).expect("a log");
     reader.seek(from).expect("a tick of it");
     reader.until_tick = Some(until);
     let mut states = Vec::new();
@@ -72,7 +72,7 @@ fn any_tick_is_a_start_and_the_flight_from_there_is_the_same() {
         for log in [flight(), &compact] {
             assert!(states(log, tick, until) == part, "{} from {tick}", log.display());
         }
-        let mut from = replay::open(flight()).expect("a log");
+        let mut from = logs::open(flight(), replay::OPEN).expect("a log");
         from.seek(tick).expect("a tick of it");
         assert!(from.initial == whole[tick as usize - 1].state, "the state of tick {tick}");
     }
@@ -180,7 +180,8 @@ fn a_compacted_log_is_taken_for_the_log_it_was() {
         said.split_once(": ").expect("a name").1.to_string()
     };
     assert_eq!(summary(a), summary(b));
-    let error = FlightReader::open(&compact).err().expect("the states are not in it");
+    let error =
+        logs::open(&compact, OpenOptions::default()).err().expect("the states are not in it");
     assert!(error.to_string().contains("log expand"), "{error}");
 }
 
@@ -300,8 +301,8 @@ fn what_if_flies_the_same_hands_on_another_aircraft() {
     assert_eq!(was.len(), is.len());
     assert_eq!(is[0].state.tick, 3001, "the parent's time");
     assert!(was.iter().zip(&is).any(|(was, is)| was.state != is.state));
-    let reader = replay::open(&out).expect("a log");
-    let same = replay::open(flight()).map(|mut parent| {
+    let reader = logs::open(&out, replay::OPEN).expect("a log");
+    let same = logs::open(flight(), replay::OPEN).map(|mut parent| {
         parent.seek(3000).expect("a tick");
         parent.initial == reader.initial
     });

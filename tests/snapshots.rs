@@ -4,22 +4,18 @@
 mod common;
 
 use common::{folder, text, tiltrotor};
-use logs::records::{EventRecord, InputsRecord, StateRecord, TimingRecord};
-use logs::schema::ros2msg;
+use logs::channels::CHANNELS;
+use logs::schema::MessageType;
 
 #[test]
 fn regress_the_layout_of_every_recorded_channel() {
     // Another layout is another format version: logs::records::FORMAT_VERSION.
-    let schemas = [
-        ("/hardware", ros2msg::<engine::inputs::DeviceEvent>()),
-        ("/inputs", ros2msg::<InputsRecord>()),
-        ("/state", ros2msg::<StateRecord>()),
-        ("/timing", ros2msg::<TimingRecord>()),
-        ("/events", ros2msg::<EventRecord>()),
-    ];
-    let texts: Vec<_> = schemas
-        .into_iter()
-        .map(|(topic, schema)| format!("{topic}\n{}", schema.expect("a schema")))
+    let texts: Vec<_> = CHANNELS
+        .iter()
+        .map(|channel| {
+            let MessageType { name, text, .. } = channel.message_type().expect("recordable");
+            format!("{}: {name}\n{text}", channel.topic)
+        })
         .collect();
     insta::assert_snapshot!(texts.join("\n"));
 }

@@ -13,7 +13,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use common::{OK, command, folder, text, tiltrotor, understood, verify};
-use logs::FlightReader;
+use logs::OpenOptions;
 use logs::records::Happening;
 
 /// How long the reader of the pipe is stopped, s.
@@ -76,7 +76,7 @@ fn a_writer_stalled_for_five_seconds_delays_no_tick_and_loses_no_input() {
     verify(&log).ends(OK).says("exact: all 2000 ticks");
     tiltrotor(&["log", "info", text(&log)]).ends(OK).says("the log's writer was held up for ");
 
-    let mut reader = FlightReader::open(&log).expect("a flight log");
+    let mut reader = logs::open(&log, OpenOptions::default()).expect("a flight log");
     while reader.next_tick().expect("whole ticks").is_some() {}
     let held_up_ms = reader.happenings.iter().filter(|e| e.kind == Happening::WriterHeldUp as u64);
     let longest_ms = held_up_ms.map(|event| event.value).max().expect("it is in the log");

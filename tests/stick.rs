@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 use common::{OK, folder, said, text, tiltrotor, verify};
 use engine::inputs::EventKind;
 use logs::records::Happening;
-use logs::{FlightReader, Tick};
+use logs::{FlightReader, OpenOptions, Tick};
 
 const EVEMU: &str = include_str!("devices/stick.evemu");
 
@@ -65,10 +65,10 @@ fn flight() -> Option<&'static Path> {
 }
 
 fn ticks(log: &Path) -> (Vec<Tick>, FlightReader) {
-    let mut reader = FlightReader::open(log).expect("a log");
+    let mut reader = logs::open(log, OpenOptions::default()).expect("a log");
     let mut ticks = Vec::new();
     while let Some(tick) = reader.next_tick().expect("a tick") {
-        ticks.push(tick);
+        ticks.push(tick.clone());
     }
     (ticks, reader)
 }

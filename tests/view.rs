@@ -58,4 +58,8 @@ fn what_diverged_is_drawn_beside_what_was_recorded() {
     {
         assert!(knows(&recording, entity), "{entity} in {}", recording.display());
     }
+    for facts in engine::outputs::Validity::FACTS {
+        let lane = format!("/recorded/validity/{}", facts.key);
+        assert!(knows(&recording, &lane), "{lane} in {}", recording.display());
+    }
 }

@@ -13,7 +13,7 @@ fn main() {
 /// Hovering out of ground effect, near enough: every block has work to do.
 fn hovering(xv15: &engine::Aircraft) -> State {
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO);
-    let mut state = start.unwrap_or_else(|e| panic!("{e}")).state(xv15).expect("on its wheels");
+    let mut state = start.unwrap_or_else(|e| panic!("{e}")).on_wheels(xv15);
     state.plant.position_m = Vec3::new(0.0, 0.0, -100.0);
     state.cockpit.collective_norm = 0.5;
     let inputs = Inputs { events: &[], world: World::default() };

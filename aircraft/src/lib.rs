@@ -11,16 +11,19 @@
 //! - What cannot be used is refused with file, line, key and what was expected: [`ConfigError`].
 
 mod check;
+mod complete;
 mod edit;
 mod error;
 mod provenance;
 mod read;
 mod tree;
 pub mod units;
+mod urdf;
 
 pub use edit::{EditError, set};
 pub use error::{ConfigError, Problem};
 pub use provenance::{Provenance, Trust};
+pub use urdf::urdf;
 
 use engine::cockpit;
 use engine::start::Start;
@@ -40,8 +43,12 @@ pub const STICK_MAP: &str = include_str!("../cockpit/stick.toml");
 pub const DEFAULT_SCENARIO: &str = include_str!("../scenario/default.toml");
 
 /// Reads an aircraft file. Its cockpit map is empty: that has a file of its own.
+///
+/// A file without `[envelope]` or `[display]` is one of before these tables existed, as old logs carry
+/// them: it gets the XV-15's.
 pub fn aircraft(file_name: &str, text: &str) -> Result<engine::Aircraft, ConfigError> {
-    let tree = tree::parse(file_name, text, Numbers::Sourced)?.0;
+    let mut tree = tree::parse(file_name, text, Numbers::Sourced)?.0;
+    complete::complete(&mut tree)?;
     check::ranges(file_name, &tree)?;
     let params = read::read(file_name, &tree)?;
     check::aircraft(file_name, &tree, &params)?;

@@ -129,6 +129,10 @@ const TABLES: &[(&str, &[&str])] = &[
     ("integral_rad_per_rad", &["mast_tilt_rad"]),
     ("nacelle_radps", &["mast_tilt_rad"]),
     ("power_by_lever_norm", &["lever_norm"]),
+    // Envelope.
+    ("calibrated_airspeed_mps_min", &["mast_tilt_rad"]),
+    ("calibrated_airspeed_mps_max", &["mast_tilt_rad"]),
+    ("short_torque_n_m_max", &["rotor_speed_radps"]),
     // Rotor wake.
     ("tail_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
     ("sideslip_factor", &["beta_rad", "mast_tilt_rad"]),

@@ -3,18 +3,11 @@
 //! `_min` and `_max` may follow the unit. A key that ends in none of these is in SI already, or has
 //! no unit.
 
-use engine::math::PI;
-
-const IN: f64 = 0.0254;
-const FT: f64 = 0.3048;
-const LB: f64 = 0.453_592_37;
-const LBF: f64 = LB * engine::GRAVITY_MPS2;
-const SLUG: f64 = LBF / FT;
-const HP: f64 = 550.0 * FT * LBF;
-const KT: f64 = 1852.0 / 3600.0;
-const HOUR: f64 = 3600.0;
-const DEG: f64 = PI / 180.0;
-const RPM: f64 = PI / 30.0;
+use engine::units::{
+    DEGREE_RAD as DEG, FOOT_M as FT, FOOT_PER_MINUTE_MPS as FPM, HECTOPASCAL_PA as HPA,
+    HORSEPOWER_W as HP, HOUR_S as HOUR, INCH_M as IN, KNOT_MPS as KT, POUND_KG as LB,
+    POUND_N as LBF, RPM_RADPS as RPM, SLUG_KG as SLUG,
+};
 
 /// (end of the key, end of the SI key, factor). Where two fit, the longer one counts.
 const UNITS: &[(&str, &str, f64)] = &[
@@ -23,7 +16,7 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("ft2", "m2", FT * FT),
     ("ft3", "m3", FT * FT * FT),
     ("ftps", "mps", FT),
-    ("fpm", "mps", FT / 60.0),
+    ("fpm", "mps", FPM),
     ("kt", "mps", KT),
     ("deg", "rad", DEG),
     ("degps", "radps", DEG),
@@ -36,7 +29,7 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("ft_lbf", "n_m", FT * LBF),
     ("in_lbf", "n_m", IN * LBF),
     ("psf", "pa", LBF / (FT * FT)),
-    ("hpa", "pa", 100.0),
+    ("hpa", "pa", HPA),
     ("hp", "w", HP),
     ("lb_per_h", "kg_per_s", LB / HOUR),
     ("lb_per_hp_h", "kg_per_j", LB / (HP * HOUR)),
@@ -90,6 +83,8 @@ pub fn has_other_units(si_key: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use engine::math::PI;
+
     use super::*;
 
     #[track_caller]
@@ -139,6 +134,17 @@ mod tests {
     fn fuel_goes_by_energy_or_by_time() {
         reads("fuel_lb_per_hp_h", 1.0, "fuel_kg_per_j", 0.453_592_37 / 2.684_519_537_696_173e6);
         reads("fuel_lb_per_h", 3600.0, "fuel_kg_per_s", 0.453_592_37);
+    }
+
+    /// What a key is turned into is made of the units that recorded names end in; J is N·m.
+    #[test]
+    fn every_si_key_is_made_of_the_engine_s_units() {
+        for (_, si_key, _) in UNITS {
+            for word in si_key.split('_').filter(|word| *word != "per" && *word != "j") {
+                let known = engine::units::SI.iter().any(|(known, _)| *known == word);
+                assert!(known || word == "rad2", "{si_key}: {word}");
+            }
+        }
     }
 
     #[test]

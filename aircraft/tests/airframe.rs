@@ -13,10 +13,8 @@ use engine::mast::TiltedMast;
 use engine::math::{PI, sqrt, square};
 use engine::motion::Motion;
 use engine::pair::Pair;
+use engine::units::{DEGREE_RAD as DEG, FOOT_M as FT, POUND_N as LBF};
 
-const DEG: f64 = PI / 180.0;
-const FT: f64 = 0.3048;
-const LBF: f64 = 4.448_221_615_260_5;
 const FT_LBF: f64 = FT * LBF;
 const SLUG_PER_FT3: f64 = LBF / (FT * FT * FT * FT);
 
@@ -99,7 +97,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         density_kg_per_m3: 0.002_377 * SLUG_PER_FT3,
     };
     let flow = local_flow(motion.airspeed_mps, motion.density_kg_per_m3);
-    let mach = motion.airspeed_mps.norm() / 340.294;
+    let mach = motion.airspeed_mps.norm() / engine::isa::SOUND_SPEED_SL_MPS;
     let (flap_rad, elevator_rad) = (40.0 * DEG, trim.elevator_deg * DEG);
     let [x, y, z] = trim.rotor_lbf;
     let mast = TiltedMast::new(0.0, 0.0);

@@ -9,10 +9,9 @@ use engine::pair::Pair;
 use engine::state::Plant;
 use engine::symmetry::Mirror;
 use engine::table::{Table1, Table2, Table3};
+use engine::units::{DEGREE_RAD as DEG, KNOT_MPS as KT};
 use engine::{Aircraft, Inputs, Outputs, State, actuators};
 
-const DEG: f64 = PI / 180.0;
-const KT: f64 = 1852.0 / 3600.0;
 /// What the conversion to SI and back may lose.
 const ROUNDING: f64 = 1e-9;
 

@@ -4,13 +4,9 @@ use engine::Aircraft;
 use engine::aero::wake_footprint::{Footprint, footprint};
 use engine::aero::{local_flow, wing_pylon};
 use engine::frames::{Body, Vec3};
-use engine::math::PI;
 use engine::motion::Motion;
+use engine::units::{DEGREE_RAD as DEG, FOOT_M as FT, INCH_M as INCH, KNOT_MPS as KT};
 
-const DEG: f64 = PI / 180.0;
-const FT: f64 = 0.3048;
-const INCH: f64 = 0.0254;
-const KT: f64 = 1852.0 / 3600.0;
 /// Half the chord, SL 338.19 less half of 5.225 ft, and the centre of gravity's station.
 const MIDDLE_FROM_CG_M: f64 = -(338.19 - 0.5 * 5.225 * 12.0 - 301.2) * INCH;
 
@@ -25,7 +21,7 @@ fn inputs(xv15: &Aircraft, tilt_rad: f64, velocity: Vec3<Body>, v: f64) -> wing_
         cg_m,
         airspeed_mps: velocity,
         angular_rate_radps: Vec3::zero(),
-        density_kg_per_m3: 1.225,
+        density_kg_per_m3: engine::isa::DENSITY_SL_KG_PER_M3,
     };
     wing_pylon::Inputs {
         motion,

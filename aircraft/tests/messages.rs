@@ -293,6 +293,123 @@ fn a_number_where_a_table_belongs() {
 }
 
 #[test]
+fn an_unknown_limit() {
+    changed(
+        "envelope.airspeed",
+        "mach_max",
+        &format!("mech_max = {{ value = 0.575, {SOURCED}"),
+        "envelope.airspeed.mech_max: unknown key; expected one of cruise_mps_max, dive_mps_max, \
+         mach_max, flap_mps_max, gear_cycle_mps_max (or the same in another unit)",
+    );
+}
+
+#[test]
+fn an_envelope_that_is_there_is_complete() {
+    let (text, _) = with_line("envelope.model", "height_m_max", "");
+    let table = line_of(XV15, "envelope.model", "[");
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{table}: envelope.model: missing key height_m_max (or the same in another \
+             unit)"
+        ),
+    );
+}
+
+#[test]
+fn a_limit_of_no_size() {
+    changed(
+        "envelope.airspeed",
+        "gear_cycle_kt_max",
+        &format!("gear_cycle_kt_max = {{ value = -160.0, {SOURCED}"),
+        "envelope.airspeed.gear_cycle_kt_max: expected 1e-6 to 1000000000.0 in SI units, found \
+         -82.31111111111112",
+    );
+}
+
+#[test]
+fn a_limit_without_its_source() {
+    changed(
+        "envelope.model",
+        "height_m_max",
+        "height_m_max = 12000.0",
+        "envelope.model.height_m_max: a number without its source; expected { value = 12000.0, \
+         source = \"...\", trust = \"...\" }",
+    );
+}
+
+#[test]
+fn slower_than_the_slowest_is_faster_than_the_fastest() {
+    changed(
+        "envelope.model",
+        "rotor_speed_radps_min",
+        &format!("rotor_speed_radps_min = {{ value = 70.0, {SOURCED}"),
+        "envelope.model.rotor_speed_radps_min: expected less than \
+         envelope.model.rotor_speed_radps_max",
+    );
+}
+
+#[test]
+fn a_corridor_that_falls() {
+    let table = "envelope.corridor.calibrated_airspeed_kt_max";
+    let (text, line) = with_line(
+        table,
+        "value",
+        "value = [96.0, 117.0, 128.0, 144.0, 143.0, 169.0, 234.0, 234.0]",
+    );
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{}: {table}: bad table; expected airspeeds from 0 that do not fall as the \
+             mast tilts forward",
+            line - 2
+        ),
+    );
+}
+
+#[test]
+fn a_corridor_that_crosses() {
+    let table = "envelope.corridor.calibrated_airspeed_kt_min";
+    let (text, line) = with_line(
+        table,
+        "value",
+        "value = [0.0, 0.0, 64.0, 64.0, 80.0, 90.0, 160.0, 165.0, 166.0, 167.0]",
+    );
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{}: {table}: bad table; expected less than the fastest airspeed at every \
+             mast tilt",
+            line - 2
+        ),
+    );
+}
+
+#[test]
+fn a_shape_that_is_turned_inside_out() {
+    let table = "display.fuselage.section_m";
+    let (text, line) = with_line(table, "    [3.40", "    [2.90, 0.50, 0.66, 1.42],");
+    told(
+        &text,
+        &format!(
+            "xv15.toml:{}: {table}: bad table; expected two cross-sections at least, from front to \
+             back, not turned inside out",
+            line - 4
+        ),
+    );
+}
+
+#[test]
+fn a_cross_section_with_a_number_missing() {
+    let table = "display.gear_pods.section_m";
+    let (text, line) = with_line(table, "    [6.6", "    [6.6],");
+    told(
+        &text,
+        &format!("xv15.toml:{line}: {table}.value[1]: expected an array of 2, found one of 1"),
+    );
+}
+
+#[test]
 fn a_control_that_no_cockpit_has() {
     let map = "[[device]]\nname = \"stick\"\nbutton = [\n    { code = 1, control = \"eject\" },\n]";
     let error = aircraft::cockpit("stick.toml", map).unwrap_err();

@@ -6,9 +6,9 @@ mod rotor_stand;
 use engine::frames::Vec3;
 use engine::math::{PI, cos, sin, sqrt};
 use engine::rotors::{self, Params, State};
+use engine::units::DEGREE_RAD as DEG;
 use rotor_stand::{hover_at, hovering, settled, trimmed};
 
-const DEG: f64 = PI / 180.0;
 /// OARF: a tip speed of 768 ft/s.
 const OARF_RPM: f64 = 768.0 / 12.5 * 30.0 / PI;
 
@@ -152,7 +152,7 @@ fn val_the_programmed_lateral_cyclic_takes_the_lateral_flapping_away() {
     let params = xv15();
     let lateral_deg = |cyclic_deg: f64| {
         let mut inputs = hovering(589.0, 8.0 * DEG);
-        inputs.motion.airspeed_mps.x = 60.0 * 1852.0 / 3600.0;
+        inputs.motion.airspeed_mps.x = 60.0 * engine::units::KNOT_MPS;
         inputs.cyclic_outboard_rad = cyclic_deg * DEG;
         settled(&params, inputs).out.tilt_outboard_rad / DEG
     };

@@ -14,9 +14,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use engine::frames::{Attitude, Euler, Vec3};
-use engine::inputs::{World, failures};
+use engine::inputs::{Failures, World};
 use engine::math::{PI, cos, sin};
-use engine::outputs::validity;
+use engine::outputs::Validity;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 use flying::{Chance, DEG, TICKS_PER_S, aloft, energy_j, parked, words, xv15};
 
@@ -126,7 +126,7 @@ fn begin(chance: &mut Chance, how: Beginning, parked: &State, world: &mut World)
             plant.velocity_mps = along(chance.between(0.0, 120.0), chance);
             plant.rotor_speed_radps *= chance.between(0.0, 1.4);
             plant.fuel_kg *= chance.between(0.0, 1.0) * chance.of(2) as f64;
-            world.failures = chance.of(4) * failures::ENGINE_LEFT;
+            world.failures = Failures::from_bits_retain(chance.of(4)) & Failures::ENGINES;
         }
     }
     state.plant.attitude = Attitude::from_euler(attitude);
@@ -159,23 +159,23 @@ fn storm(chance: &mut Chance, tick: u64, before: &World) -> World {
 
 /// What the outputs must say of a state, whatever the model thinks of it.
 fn untold(state: &State, outputs: &Outputs) -> Option<&'static str> {
-    let told = |bit: u64| outputs.validity & bit != 0;
+    let told = |flag: Validity| outputs.validity.contains(flag);
     let legs = &outputs.landing_gear;
     let bottomed = [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
     let rotor_radps = state.plant.rotor_speed_radps;
     [
-        (outputs.airspeed_mps > 180.0, validity::SPEED, "faster than the data"),
-        (outputs.place.height_m > 12e3, validity::HEIGHT, "higher than the data"),
-        (bottomed, validity::GEAR_BOTTOMED, "a strut past its stroke"),
+        (outputs.airspeed_mps > 180.0, Validity::SPEED, "faster than the data"),
+        (outputs.place.height_m > 12e3, Validity::HEIGHT, "higher than the data"),
+        (bottomed, Validity::GEAR_BOTTOMED, "a strut past its stroke"),
         (
             !(43.0..=69.3).contains(&rotor_radps),
-            validity::ROTOR_SPEED,
+            Validity::ROTOR_SPEED,
             "rotors too slow or too fast",
         ),
-        (state.plant.angular_rate_radps.norm() > 3.0, validity::TUMBLING, "a tumble"),
+        (state.plant.angular_rate_radps.norm() > 3.0, Validity::TUMBLING, "a tumble"),
     ]
     .into_iter()
-    .find(|(beyond, bit, _)| *beyond && !told(*bit))
+    .find(|(beyond, flag, _)| *beyond && !told(*flag))
     .map(|(_, _, what)| what)
 }
 

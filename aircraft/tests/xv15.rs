@@ -7,10 +7,10 @@ use engine::frames::Vec3;
 use engine::inputs::World;
 use engine::math::{PI, square};
 use engine::symmetry::Mirror;
+use engine::units::DEGREE_RAD as DEG;
 use engine::{Aircraft, Inputs, State};
 use rotor_stand::{hover_at, hovering};
 
-const DEG: f64 = PI / 180.0;
 const LBF: f64 = 4.448_221_615_260_5;
 
 fn xv15() -> Aircraft {
@@ -41,7 +41,7 @@ fn tables_arrive_in_si() {
     close(mixer.collective_per_lever_rad_per_m.at(0.0), 1.6 * DEG / 0.0254);
     close(mixer.collective_per_lever_rad_per_m.at(45.0 * DEG), 0.5 * (0.92 + 0.71) * DEG / 0.0254);
     close(
-        mixer.cyclic_per_pedal_rad_per_m.at(60.0 * DEG, 80.0 * 1852.0 / 3600.0),
+        mixer.cyclic_per_pedal_rad_per_m.at(60.0 * DEG, 80.0 * engine::units::KNOT_MPS),
         0.52 * DEG / 0.0254,
     );
 }
@@ -149,7 +149,7 @@ fn val_hover_power_at_design_weight_is_that_of_the_flight_test() {
 
 fn started(xv15: &Aircraft) -> State {
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
-    start.state(xv15).unwrap()
+    start.on_wheels(xv15)
 }
 
 /// Rotors at flat pitch on idle power carry a little of the weight, either way.

@@ -6,7 +6,9 @@ use serde::Deserialize;
 
 use crate::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
 use crate::rotors::blade;
-use crate::{actuators, cockpit, engines, fcc, landing_gear, rotors, weight_balance};
+use crate::{
+    actuators, cockpit, display, engines, envelope, fcc, landing_gear, rotors, weight_balance,
+};
 
 /// A tilt-rotor that can be flown: its parameters, and what is derived from them.
 ///
@@ -87,6 +89,10 @@ pub struct Params {
     pub engines: engines::Params,
     /// Landing gear.
     pub landing_gear: landing_gear::Params,
+    /// Where it is flown, and where the model holds.
+    pub envelope: envelope::Params,
+    /// What it looks like.
+    pub display: display::Params,
 }
 
 impl Params {
@@ -122,5 +128,7 @@ impl Params {
             .or_else(|| self.fuselage.fault())
             .or_else(|| self.horizontal_stabilizer.fault())
             .or_else(|| self.vertical_stabilizers.fault())
+            .or_else(|| self.envelope.fault())
+            .or_else(|| self.display.fault())
     }
 }

@@ -13,51 +13,126 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 pub use crate::controls::{FLAP_DETENT_LAST, PilotControls as State, RPM_SELECT_LAST};
+use crate::enumeration;
 use crate::inputs::{DeviceEvent, EventKind};
 use crate::math::{clamp, sign};
 
-/// What a device's axis can move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AxisControl {
-    /// Longitudinal stick, aft positive, −1..1.
-    StickAft,
-    /// Lateral stick, right positive, −1..1.
-    StickRight,
-    /// Power lever, 0..1.
-    Collective,
-    /// Pedals, right positive, −1..1.
-    PedalRight,
-    /// Left toe brake, 0..1.
-    BrakeLeft,
-    /// Right toe brake, 0..1.
-    BrakeRight,
-    /// Nacelle switch as an axis (a hat): over a half is aft, below minus a half forward.
-    NacelleAft,
+/// How far a control goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Travel {
+    /// Either way from its middle, −1..1.
+    Centred,
+    /// From one end to the other, 0..1.
+    FromEnd,
 }
 
-/// What a device's button can do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ButtonControl {
-    /// Nacelles towards the aeroplane while held.
-    NacelleForward,
-    /// Nacelles towards the helicopter while held.
-    NacelleAft,
-    /// Flap lever one detent down.
-    FlapDown,
-    /// Flap lever one detent up.
-    FlapUp,
-    /// Gear handle to its other position.
-    GearToggle,
-    /// Parking brake to its other position.
-    ParkingBrakeToggle,
-    /// SCAS, all axes, on or off.
-    ScasToggle,
-    /// Next rotor speed: helicopter, aeroplane early flights, aeroplane design.
-    RpmSelect,
-    /// Marks the moment in the log.
-    Marker,
+impl Travel {
+    /// The position at the lower end; the other is always at 1.
+    pub const fn low_norm(self) -> f64 {
+        match self {
+            Self::Centred => -1.0,
+            Self::FromEnd => 0.0,
+        }
+    }
+}
+
+/// What is told of an [`AxisControl`].
+#[derive(Clone, Copy, Debug)]
+pub struct AxisFacts {
+    /// Its name in maps and scripts; never changed.
+    pub key: &'static str,
+    /// Its name in words.
+    pub words: &'static str,
+    /// What it is, and which way is positive.
+    pub description: &'static str,
+    /// How far it goes.
+    pub travel: Travel,
+    /// Whether it is a switch that springs back when nobody holds it, be it a hat or buttons.
+    pub springs_back: bool,
+    /// Puts it at a position.
+    pub set: fn(&mut State, f64),
+}
+
+enumeration! {
+    /// What a device's axis can move.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum AxisControl tells AxisFacts {
+        /// Longitudinal stick, aft positive.
+        StickAft {
+            key: "stick_aft", words: "stick aft", travel: Travel::Centred, springs_back: false,
+            set: |controls, at_norm| controls.stick_aft_norm = at_norm,
+        }
+        /// Lateral stick, right positive.
+        StickRight {
+            key: "stick_right", words: "stick right", travel: Travel::Centred, springs_back: false,
+            set: |controls, at_norm| controls.stick_right_norm = at_norm,
+        }
+        /// Power lever, up positive.
+        Collective {
+            key: "collective", words: "collective", travel: Travel::FromEnd, springs_back: false,
+            set: |controls, at_norm| controls.collective_norm = at_norm,
+        }
+        /// Pedals, right positive.
+        PedalRight {
+            key: "pedal_right", words: "pedal right", travel: Travel::Centred, springs_back: false,
+            set: |controls, at_norm| controls.pedal_right_norm = at_norm,
+        }
+        /// Left toe brake.
+        BrakeLeft {
+            key: "brake_left", words: "brake left", travel: Travel::FromEnd, springs_back: false,
+            set: |controls, at_norm| controls.brake_norm.left = at_norm,
+        }
+        /// Right toe brake.
+        BrakeRight {
+            key: "brake_right", words: "brake right", travel: Travel::FromEnd, springs_back: false,
+            set: |controls, at_norm| controls.brake_norm.right = at_norm,
+        }
+        /// Nacelle switch as an axis (a hat): over a half is aft, below minus a half forward.
+        NacelleAft {
+            key: "nacelle_aft", words: "nacelle aft", travel: Travel::Centred, springs_back: true,
+            set: |controls, at_norm| {
+                controls.nacelle_aft_norm = if at_norm.abs() > 0.5 { sign(at_norm) } else { 0.0 };
+            },
+        }
+    }
+}
+
+/// What is told of a [`ButtonControl`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ButtonFacts {
+    /// Its name in maps and scripts; never changed.
+    pub key: &'static str,
+    /// Its name in words.
+    pub words: &'static str,
+    /// What it does.
+    pub description: &'static str,
+}
+
+enumeration! {
+    /// What a device's button can do.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum ButtonControl tells ButtonFacts {
+        /// Nacelles towards the aeroplane while held.
+        NacelleForward { key: "nacelle_forward", words: "nacelle forward" }
+        /// Nacelles towards the helicopter while held.
+        NacelleAft { key: "nacelle_aft", words: "nacelle aft" }
+        /// Flap lever one detent down.
+        FlapDown { key: "flap_down", words: "flap down" }
+        /// Flap lever one detent up.
+        FlapUp { key: "flap_up", words: "flap up" }
+        /// Gear handle to its other position.
+        GearToggle { key: "gear_toggle", words: "gear toggle" }
+        /// Parking brake to its other position.
+        ParkingBrakeToggle { key: "parking_brake_toggle", words: "parking brake toggle" }
+        /// SCAS, all axes, on or off.
+        ScasToggle { key: "scas_toggle", words: "scas toggle" }
+        /// Next rotor speed: helicopter, aeroplane early flights, aeroplane design.
+        RpmSelect { key: "rpm_select", words: "rpm select" }
+        /// Marks the moment in the log.
+        Marker { key: "marker", words: "marker" }
+    }
 }
 
 /// What an axis does when its device is unplugged.
@@ -143,7 +218,7 @@ pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
         match EventKind::from_u64(event.kind) {
             Some(EventKind::Axis) => {
                 for binding in device.axis.iter().filter(|axis| axis.code == event.code) {
-                    set_axis(&mut controls, binding.control, position(binding, event.value));
+                    (binding.control.facts().set)(&mut controls, position(binding, event.value));
                 }
             }
             Some(EventKind::Button) => {
@@ -152,11 +227,11 @@ pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
                 }
             }
             Some(EventKind::Disconnected) => {
-                // Nobody holds the switches of a device that is gone, be they a hat or buttons.
+                // Nobody holds the switches of a device that is gone.
                 for binding in &device.axis {
-                    let switch = binding.control == AxisControl::NacelleAft;
-                    if switch || binding.when_unplugged == WhenUnplugged::Centre {
-                        set_axis(&mut controls, binding.control, 0.0);
+                    let AxisFacts { springs_back, set, .. } = binding.control.facts();
+                    if *springs_back || binding.when_unplugged == WhenUnplugged::Centre {
+                        set(&mut controls, 0.0);
                     }
                 }
                 for binding in &device.button {
@@ -177,7 +252,7 @@ fn position(binding: &AxisBinding, raw: i64) -> f64 {
     }
     // As floating-point numbers, because the difference of two of any size may not be an i64.
     let (raw, low, high) = (raw as f64, low as f64, high as f64);
-    if !is_centred(binding.control) {
+    if binding.control.facts().travel == Travel::FromEnd {
         let travel = clamp((raw - low) / (high - low), 0.0, 1.0);
         return if binding.inverted { 1.0 - travel } else { travel };
     }
@@ -191,26 +266,6 @@ fn position(binding: &AxisBinding, raw: i64) -> f64 {
     }
     let expo = clamp(binding.expo_norm, 0.0, 1.0);
     sign(x) * ((1.0 - expo) * beyond + expo * beyond * beyond * beyond)
-}
-
-fn is_centred(control: AxisControl) -> bool {
-    use AxisControl::{NacelleAft, PedalRight, StickAft, StickRight};
-    matches!(control, StickAft | StickRight | PedalRight | NacelleAft)
-}
-
-fn set_axis(controls: &mut State, control: AxisControl, position_norm: f64) {
-    match control {
-        AxisControl::StickAft => controls.stick_aft_norm = position_norm,
-        AxisControl::StickRight => controls.stick_right_norm = position_norm,
-        AxisControl::Collective => controls.collective_norm = position_norm,
-        AxisControl::PedalRight => controls.pedal_right_norm = position_norm,
-        AxisControl::BrakeLeft => controls.brake_norm.left = position_norm,
-        AxisControl::BrakeRight => controls.brake_norm.right = position_norm,
-        AxisControl::NacelleAft => {
-            controls.nacelle_aft_norm =
-                if position_norm.abs() > 0.5 { sign(position_norm) } else { 0.0 };
-        }
-    }
 }
 
 fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
@@ -354,5 +409,47 @@ mod tests {
         let mut kind = event(EventKind::Axis, 1, 3);
         kind.kind = 99;
         assert_eq!(update(&map, &State::default(), &[wrong, kind]), State::default());
+    }
+
+    /// The key is what maps are written with.
+    #[test]
+    fn a_key_of_the_list_is_the_name_in_a_map() {
+        use serde::de::value::{Error, StrDeserializer};
+        for &control in AxisControl::ALL {
+            let name = StrDeserializer::<Error>::new(control.facts().key);
+            assert_eq!(AxisControl::deserialize(name), Ok(control));
+        }
+        for &control in ButtonControl::ALL {
+            let name = StrDeserializer::<Error>::new(control.facts().key);
+            assert_eq!(ButtonControl::deserialize(name), Ok(control));
+        }
+    }
+
+    #[test]
+    fn an_axis_goes_as_far_as_its_list_says() {
+        for &control in AxisControl::ALL {
+            let binding = AxisBinding { dead_norm: 0.0, ..axis(control) };
+            let low_norm = control.facts().travel.low_norm();
+            let ends = [(0, low_norm), (200, 1.0), (-50, low_norm), (999, 1.0)];
+            for (raw, at_norm) in ends {
+                assert!((position(&binding, raw) - at_norm).abs() < 1e-15, "{control:?} at {raw}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_two_axes_move_the_same() {
+        let moved: Vec<State> = AxisControl::ALL
+            .iter()
+            .map(|control| {
+                let mut controls = State::default();
+                (control.facts().set)(&mut controls, 1.0);
+                controls
+            })
+            .collect();
+        for (i, one) in moved.iter().enumerate() {
+            assert_ne!(*one, State::default(), "{:?} moves nothing", AxisControl::ALL[i]);
+            assert!(!moved[..i].contains(one), "{:?} moves what another does", AxisControl::ALL[i]);
+        }
     }
 }

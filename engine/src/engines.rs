@@ -17,15 +17,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::frames::{Body, Load, Structural, Vec3};
-use crate::inputs::{World, failures};
+use crate::inputs::{Failures, World};
+use crate::isa::{PRESSURE_SL_PA, TEMPERATURE_SL_K};
 use crate::math::{clamp, max, min, sqrt};
 use crate::pair::Pair;
 use crate::table::Table1;
-
-/// Sea-level standard pressure, Pa.
-const PRESSURE_SL_PA: f64 = 101_325.0;
-/// Sea-level standard temperature, K.
-const TEMPERATURE_SL_K: f64 = 288.15;
 
 /// An engine's torque goes up to this, over the continuous limit.
 pub const TORQUE_NORM_MAX: f64 = 1.3;
@@ -124,8 +120,8 @@ pub fn evaluate(params: &Params, state: &Pair<State>, inputs: &Inputs) -> (Rate,
     let wanted_w =
         available_w * (params.idle_power_norm + (1.0 - params.idle_power_norm) * power_norm);
     let running = Pair {
-        left: !inputs.world.failed(failures::ENGINE_LEFT) && inputs.fuel_kg > 0.0,
-        right: !inputs.world.failed(failures::ENGINE_RIGHT) && inputs.fuel_kg > 0.0,
+        left: !inputs.world.failed(Failures::ENGINE_LEFT) && inputs.fuel_kg > 0.0,
+        right: !inputs.world.failed(Failures::ENGINE_RIGHT) && inputs.fuel_kg > 0.0,
     };
     let power_w_per_s = running.zip(*state).map(|(running, engine)| {
         let target_w = if running { wanted_w } else { 0.0 };
@@ -217,7 +213,7 @@ mod tests {
     #[test]
     fn a_failed_engine_runs_down_and_the_other_does_not() {
         let mut inputs = inputs();
-        inputs.world.failures = failures::ENGINE_LEFT;
+        inputs.world.failures = Failures::ENGINE_LEFT;
         let state = Pair::both(State { power_w: 5e5 });
         let (rate, _) = evaluate(&params(), &state, &inputs);
         assert!(rate.power_w_per_s.left < 0.0 && rate.power_w_per_s.right > 0.0);

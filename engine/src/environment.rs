@@ -22,20 +22,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::frames::{Body, Ned, Vec3};
 use crate::inputs::World;
+use crate::isa::{
+    GAS_J_PER_KG_K, HEAT_RATIO, LAPSE_K_PER_M, PRESSURE_SL_PA, TEMPERATURE_SL_K, TROPOPAUSE_M,
+};
 use crate::math::{TAU, clamp, cos, exp, ln, max, pow_positive, ramp, sqrt};
+use crate::units::FOOT_M as FT;
 use crate::{GRAVITY_MPS2, STEP_S};
 
-const TEMPERATURE_SL_K: f64 = 288.15;
-const PRESSURE_SL_PA: f64 = 101_325.0;
-const LAPSE_K_PER_M: f64 = 0.0065;
-const GAS_J_PER_KG_K: f64 = 287.052_87;
-const TROPOPAUSE_M: f64 = 11_000.0;
-const HEAT_RATIO: f64 = 1.4;
-
-/// Density of the standard atmosphere at sea level, kg/m³.
-pub const DENSITY_SL_KG_PER_M3: f64 = 1.225;
-
-const FT: f64 = 0.3048;
 /// Slowest passage of the turbulence, m/s.
 const PASSAGE_MPS_MIN: f64 = 10.0;
 

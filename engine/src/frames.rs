@@ -324,7 +324,7 @@ impl Add for Load {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{FRAC_PI_2, PI};
+    use crate::math::{FRAC_PI_2, PI, cos, sin};
 
     fn close(a: f64, b: f64) -> bool {
         (a - b).abs() < 1e-12

@@ -4,7 +4,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::enumeration;
 use crate::frames::{Ned, Vec3};
+use crate::listing::flags;
 
 /// One raw event of an input device (or of a pilot model or script, which look the same).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -23,43 +25,72 @@ pub struct DeviceEvent {
     pub value: i64,
 }
 
-/// What a [`DeviceEvent`] tells.
+/// What is told of an [`EventKind`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u64)]
-pub enum EventKind {
-    /// An axis moved.
-    Axis = 1,
-    /// A button changed.
-    Button = 2,
-    /// The device appeared.
-    Connected = 3,
-    /// The device went away.
-    Disconnected = 4,
+pub struct EventKindFacts {
+    /// Its name, in reports and in words; never changed.
+    pub key: &'static str,
+    /// What happened.
+    pub description: &'static str,
+}
+
+enumeration! {
+    /// What a [`DeviceEvent`] tells.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[repr(u64)]
+    pub enum EventKind tells EventKindFacts {
+        /// An axis moved.
+        Axis = 1 { key: "axis" }
+        /// A button changed.
+        Button = 2 { key: "button" }
+        /// The device appeared.
+        Connected = 3 { key: "connected" }
+        /// The device went away.
+        Disconnected = 4 { key: "disconnected" }
+    }
 }
 
 impl EventKind {
     /// The kind recorded as `kind`, if it is one.
     pub fn from_u64(kind: u64) -> Option<Self> {
-        [Self::Axis, Self::Button, Self::Connected, Self::Disconnected]
-            .into_iter()
-            .find(|&known| known as u64 == kind)
+        Self::ALL.iter().copied().find(|&known| known as u64 == kind)
     }
 }
 
-/// What fails, as bits of [`World::failures`].
-pub mod failures {
-    /// The left engine stops.
-    pub const ENGINE_LEFT: u64 = 1;
-    /// The right engine stops.
-    pub const ENGINE_RIGHT: u64 = 1 << 1;
-    /// The SCAS pitch axis goes dead.
-    pub const SCAS_PITCH: u64 = 1 << 2;
-    /// The SCAS roll axis goes dead.
-    pub const SCAS_ROLL: u64 = 1 << 3;
-    /// The SCAS yaw axis goes dead.
-    pub const SCAS_YAW: u64 = 1 << 4;
-    /// The collective governor holds its last correction.
-    pub const GOVERNOR: u64 = 1 << 5;
+/// What is told of a flag of [`Failures`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FailureFacts {
+    /// Which.
+    pub flag: Failures,
+    /// Its name in scripts; never changed.
+    pub key: &'static str,
+    /// What failed, in words.
+    pub words: &'static str,
+    /// What it does.
+    pub description: &'static str,
+}
+
+flags! {
+    /// What has failed.
+    pub struct Failures tells FailureFacts {
+        /// The left engine stops.
+        ENGINE_LEFT = 0 { key: "engine_left", words: "left engine" }
+        /// The right engine stops.
+        ENGINE_RIGHT = 1 { key: "engine_right", words: "right engine" }
+        /// The SCAS pitch axis goes dead.
+        SCAS_PITCH = 2 { key: "scas_pitch", words: "SCAS pitch" }
+        /// The SCAS roll axis goes dead.
+        SCAS_ROLL = 3 { key: "scas_roll", words: "SCAS roll" }
+        /// The SCAS yaw axis goes dead.
+        SCAS_YAW = 4 { key: "scas_yaw", words: "SCAS yaw" }
+        /// The collective governor holds its last correction.
+        GOVERNOR = 5 { key: "governor", words: "governor" }
+    }
+}
+
+impl Failures {
+    /// Both engines.
+    pub const ENGINES: Self = Self::ENGINE_LEFT.union(Self::ENGINE_RIGHT);
 }
 
 /// The world around the aircraft during one tick.
@@ -83,16 +114,16 @@ pub struct World {
     pub temperature_offset_k: f64,
     /// Sea-level pressure above the standard one by, Pa.
     pub pressure_offset_pa: f64,
-    /// What has failed: bits of [`failures`].
-    pub failures: u64,
+    /// What has failed.
+    pub failures: Failures,
     /// 1 while the simulation is paused: the tick passes, the aircraft does not.
     pub paused: u64,
 }
 
 impl World {
-    /// Whether a bit of [`failures`] is set.
-    pub fn failed(&self, failure: u64) -> bool {
-        self.failures & failure != 0
+    /// Whether one of these has failed.
+    pub fn failed(&self, failures: Failures) -> bool {
+        self.failures.intersects(failures)
     }
 
     /// Whether every number is finite.

@@ -4,35 +4,77 @@ use serde::{Deserialize, Serialize};
 
 use crate::controls::{Commands, PilotControls};
 use crate::frames::{Body, Euler, Load, Ned, Vec3};
+use crate::isa::{PRESSURE_SL_PA, SOUND_SPEED_SL_MPS};
 use crate::landing_gear::Leg;
+use crate::listing::flags;
 use crate::math::{sin_cos, sqrt, square};
 use crate::pair::Pair;
 use crate::state::Geodetic;
 use crate::struts::Struts;
 use crate::{actuators, engines, environment, rotors, weight_balance};
 
-/// Where the model's answer is no longer to be trusted, as bits of [`Outputs::validity`].
-pub mod validity {
-    /// A tenth of a rotor's outer blades is beyond its greatest lift.
-    pub const ROTOR_STALL: u64 = 1;
-    /// A rotor descends into its own wake.
-    pub const VORTEX_RING: u64 = 1 << 1;
-    /// Beyond the speeds of the data, 180 m/s.
-    pub const SPEED: u64 = 1 << 2;
-    /// Beyond the heights of the data, 12 km.
-    pub const HEIGHT: u64 = 1 << 3;
-    /// A strut is past its stroke.
-    pub const GEAR_BOTTOMED: u64 = 1 << 4;
-    /// A number stopped being finite; the aircraft stands still.
-    pub const FROZEN: u64 = 1 << 5;
-    /// The hull touches the ground: a wreck.
-    pub const HULL: u64 = 1 << 6;
-    /// A rotor's gimbal is on its stop.
-    pub const FLAPPING_STOP: u64 = 1 << 7;
-    /// The rotors turn slower than 0.7 of the helicopter's speed, or faster than their limit of 661 rpm.
-    pub const ROTOR_SPEED: u64 = 1 << 8;
-    /// It turns faster than 3 rad/s: tables of steady flow know nothing of that.
-    pub const TUMBLING: u64 = 1 << 9;
+/// How much of the answer is left when the model is outside its validity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The answer is rough.
+    Caution,
+    /// The answer is no longer to be trusted.
+    Warning,
+    /// The flight is over: nothing after it means anything.
+    Final,
+}
+
+/// What is told of a flag of [`Validity`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ValidityFacts {
+    /// Which.
+    pub flag: Validity,
+    /// Its name in files and recordings; never changed.
+    pub key: &'static str,
+    /// Its name in words.
+    pub words: &'static str,
+    /// When it is set.
+    pub description: &'static str,
+    /// How much it matters.
+    pub severity: Severity,
+}
+
+flags! {
+    /// Where the model's answer is no longer to be trusted.
+    pub struct Validity tells ValidityFacts {
+        /// A tenth of a rotor's outer blades is beyond its greatest lift.
+        ROTOR_STALL = 0 { key: "rotor_stall", words: "rotor stall", severity: Severity::Caution }
+        /// A rotor descends into its own wake.
+        VORTEX_RING = 1 { key: "vortex_ring", words: "vortex ring", severity: Severity::Warning }
+        /// Beyond the speeds of the data, as the aircraft's envelope has them.
+        SPEED = 2 { key: "speed", words: "speed", severity: Severity::Caution }
+        /// Beyond the heights of the data.
+        HEIGHT = 3 { key: "height", words: "height", severity: Severity::Caution }
+        /// A strut is past its stroke.
+        GEAR_BOTTOMED = 4 {
+            key: "gear_bottomed", words: "gear bottomed", severity: Severity::Warning
+        }
+        /// A number stopped being finite; the aircraft stands still.
+        FROZEN = 5 { key: "frozen", words: "numbers not finite", severity: Severity::Final }
+        /// The hull touches the ground: a wreck.
+        HULL = 6 { key: "hull", words: "hull on the ground", severity: Severity::Final }
+        /// A rotor's gimbal is on its stop.
+        FLAPPING_STOP = 7 {
+            key: "flapping_stop", words: "flapping stop", severity: Severity::Caution
+        }
+        /// The rotors turn slower or faster than the data are for.
+        ROTOR_SPEED = 8 { key: "rotor_speed", words: "rotor speed", severity: Severity::Caution }
+        /// It turns faster than any flight: tables of steady flow know nothing of that.
+        TUMBLING = 9 { key: "tumbling", words: "tumbling", severity: Severity::Warning }
+    }
+}
+
+impl Validity {
+    /// What is told of the gravest flag that is set; of several alike, of the lowest bit.
+    pub fn gravest(self) -> Option<&'static ValidityFacts> {
+        // `max_by_key` would give the last of several.
+        self.told().reduce(|best, next| if next.severity > best.severity { next } else { best })
+    }
 }
 
 /// Loads on the airframe by component, each about the centre of gravity.
@@ -130,8 +172,8 @@ pub struct Outputs {
     pub loads: Loads,
     /// All together, without gravity.
     pub total: Load,
-    /// Where the answer is not to be trusted: bits of [`validity`].
-    pub validity: u64,
+    /// Where the answer is not to be trusted.
+    pub validity: Validity,
 }
 
 /// Rates of the Euler angles.
@@ -183,11 +225,9 @@ pub fn place(origin: &Geodetic, position_m: Vec3<Ned>) -> Geodetic {
 
 /// Calibrated airspeed of a Mach number at a pressure, m/s (subsonic).
 pub fn calibrated_airspeed(mach: f64, pressure_pa: f64) -> f64 {
-    const PRESSURE_SL_PA: f64 = 101_325.0;
-    const SOUND_SL_MPS: f64 = 340.294;
     let impact_pa = pressure_pa * (crate::math::pow_positive(1.0 + 0.2 * square(mach), 3.5) - 1.0);
     let ratio = crate::math::pow_positive(impact_pa / PRESSURE_SL_PA + 1.0, 2.0 / 7.0);
-    SOUND_SL_MPS * sqrt(5.0 * crate::math::max(0.0, ratio - 1.0))
+    SOUND_SPEED_SL_MPS * sqrt(5.0 * crate::math::max(0.0, ratio - 1.0))
 }
 
 #[cfg(test)]
@@ -197,14 +237,36 @@ mod tests {
     #[test]
     fn a_minute_of_latitude_is_a_nautical_mile() {
         let origin = Geodetic { latitude_rad: 0.785, ..Geodetic::default() };
-        let there = place(&origin, Vec3::new(1852.0, 0.0, -100.0));
-        let minutes = (there.latitude_rad - origin.latitude_rad) * 180.0 / crate::math::PI * 60.0;
+        let mile_m = crate::units::NAUTICAL_MILE_M;
+        let there = place(&origin, Vec3::new(mile_m, 0.0, -100.0));
+        let minutes = crate::units::degrees(there.latitude_rad - origin.latitude_rad) * 60.0;
         assert!((minutes - 1.0).abs() < 0.003, "{minutes}");
         assert!((there.height_m - 100.0).abs() < 1e-12);
     }
 
     #[test]
     fn at_sea_level_calibrated_is_true() {
-        assert!((calibrated_airspeed(0.3, 101_325.0) - 0.3 * 340.294).abs() < 1e-6);
+        let true_mps = 0.3 * SOUND_SPEED_SL_MPS;
+        assert!((calibrated_airspeed(0.3, PRESSURE_SL_PA) - true_mps).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_gravest_is_told_first_and_of_equals_the_lowest_bit() {
+        let gravest = |flags: Validity| flags.gravest().map(|facts| facts.flag);
+        assert_eq!(gravest(Validity::empty()), None);
+        assert_eq!(gravest(Validity::all()), Some(Validity::FROZEN));
+        let wreck = Validity::ROTOR_STALL | Validity::GEAR_BOTTOMED | Validity::HULL;
+        assert_eq!(gravest(wreck), Some(Validity::HULL));
+        assert_eq!(gravest(Validity::SPEED | Validity::HEIGHT), Some(Validity::SPEED));
+    }
+
+    #[test]
+    fn flags_are_told_in_the_order_of_their_bits_and_unknown_ones_are_kept() {
+        extern crate alloc;
+        use alloc::string::ToString;
+        assert_eq!(Validity::empty().to_string(), "nothing");
+        assert_eq!((Validity::TUMBLING | Validity::SPEED).to_string(), "speed, tumbling");
+        let newer = Validity::from_bits_retain(1 << 40 | 1);
+        assert_eq!((newer.to_string().as_str(), newer.bits()), ("rotor stall", 1 << 40 | 1));
     }
 }

@@ -6,7 +6,6 @@ use crate::frames::{Attitude, Euler, Ned, Vec3};
 use crate::inputs::{Inputs, World};
 use crate::pair::Pair;
 use crate::state::{Geodetic, Plant, State};
-use crate::trim::{Failure, Power, Target, trim};
 use crate::{Aircraft, GRAVITY_MPS2, cockpit, environment, fcc, rotors, step_state};
 
 /// How long the aircraft settles on its wheels before the flight, in ticks.
@@ -106,33 +105,9 @@ impl WorldStart {
 }
 
 impl Start {
-    /// The state at tick 0.
-    ///
-    /// # Errors
-    /// When the steady flight in which it is to begin does not exist.
-    pub fn state(&self, aircraft: &Aircraft) -> Result<State, Failure> {
-        let Some(flight) = self.trim else { return Ok(self.on_wheels(aircraft)) };
-        let target = Target {
-            mast_tilt_rad: flight.mast_tilt_rad,
-            airspeed_mps: flight.airspeed_mps,
-            power: Power::Climb(flight.climb_mps),
-            turn_radps: flight.turn_radps,
-            sideslip_rad: 0.0,
-            heading_rad: self.heading_rad,
-            altitude_m: flight.altitude_m,
-            origin: self.origin,
-            fuel_kg: self.fuel_kg,
-            flap_detent: flight.flap_detent.unwrap_or(self.flap_detent),
-            rpm_select: flight.rpm_select,
-            gear_down: flight.gear_down,
-            scas_on: flight.scas_on,
-            world: self.world.world(),
-        };
-        Ok(trim(aircraft, &target)?.state)
-    }
-
-    /// The aircraft has come to rest on its wheels, brakes set, rotors at speed.
-    fn on_wheels(&self, aircraft: &Aircraft) -> State {
+    /// The aircraft come to rest on its wheels, brakes set, rotors at speed, at tick 0. Where there is a
+    /// `trim`, this is not how the flight begins: `analysis::start::state_at` says that.
+    pub fn on_wheels(&self, aircraft: &Aircraft) -> State {
         let gear = &aircraft.landing_gear;
         let weights = &aircraft.weight_balance;
         let weight_n = (weights.zero_fuel_mass_kg + self.fuel_kg) * GRAVITY_MPS2;
@@ -141,7 +116,14 @@ impl Start {
         let rotor_speed_radps = aircraft.fcc.governor.rotor_speed_radps[0];
         let governor = &aircraft.fcc.governor;
         let collective_rad = governor.lowest_rad(0.0);
-        let correction_rad = collective_rad - governor.feed_forward_rad(0.0, 0.0);
+        // The lever at its bottom, the masts upright.
+        let to_governor = fcc::governor::Inputs {
+            from_lever_rad: 0.0,
+            rpm_select: 0,
+            rotor_speed_radps,
+            mast_tilt_rad: 0.0,
+            failed: false,
+        };
         let mut state = State {
             cockpit: cockpit::State {
                 flap_detent: self.flap_detent.min(cockpit::FLAP_DETENT_LAST),
@@ -151,11 +133,7 @@ impl Start {
                 ..cockpit::State::default()
             },
             fcc: fcc::State {
-                governor: fcc::governor::State {
-                    reference_radps: rotor_speed_radps,
-                    integral_rad: correction_rad,
-                    correction_rad,
-                },
+                governor: fcc::governor::settled(governor, &to_governor, collective_rad),
                 ..fcc::State::default()
             },
             environment: environment::State {

@@ -111,7 +111,7 @@ fn weather(state: &State, world: &World) -> (environment::State, environment::Ou
 }
 
 /// What the flight control computer's sensors read in a state at rest in its weather.
-pub(crate) fn sensed(state: &State, world: &World) -> fcc::Sensed {
+pub fn sensed(state: &State, world: &World) -> fcc::Sensed {
     sense(state, &weather(state, world).1)
 }
 

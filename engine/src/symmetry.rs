@@ -4,7 +4,7 @@
 
 use crate::controls::PilotControls;
 use crate::frames::Load;
-use crate::inputs::{World, failures};
+use crate::inputs::{Failures, World};
 use crate::landing_gear::TyreDeflection;
 use crate::pair::Pair;
 use crate::state::{Plant, PlantRate, State};
@@ -128,14 +128,13 @@ impl Mirror for PlantRate {
 
 impl Mirror for World {
     fn mirrored(&self) -> Self {
-        let moved = |from: u64, to: u64| if self.failed(from) { to } else { 0 };
-        let engines = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
+        let mut failures = self.failures.difference(Failures::ENGINES);
+        failures.set(Failures::ENGINE_LEFT, self.failed(Failures::ENGINE_RIGHT));
+        failures.set(Failures::ENGINE_RIGHT, self.failed(Failures::ENGINE_LEFT));
         Self {
             wind_mps: self.wind_mps.mirrored(),
             gust_mps: self.gust_mps.mirrored(),
-            failures: (self.failures & !engines)
-                | moved(failures::ENGINE_LEFT, failures::ENGINE_RIGHT)
-                | moved(failures::ENGINE_RIGHT, failures::ENGINE_LEFT),
+            failures,
             ..*self
         }
     }

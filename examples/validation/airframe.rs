@@ -1,10 +1,10 @@
 //! Loads of the components.
 
+use analysis::trim::{GROUND_FAR_BELOW_M, settle};
 use engine::frames::{Attitude, Body, Euler, Load, Vec3};
 use engine::inputs::World;
 use engine::math::atan2;
 use engine::pair::Pair;
-use engine::trim::{GROUND_FAR_BELOW_M, settle};
 use engine::{Aircraft, Outputs, State};
 
 use crate::book::{Band, Book, Case, DEG, FOOT_M, POUND_N};

@@ -3,23 +3,12 @@
 use std::fmt::Write as _;
 
 pub use engine::math::PI;
+pub use engine::units::{
+    DEG_PER_RAD as DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, POUND_N, RPM_RADPS,
+};
 
-/// Degrees in a radian.
-pub const DEG: f64 = 180.0 / PI;
-/// Metres in an inch.
-pub const INCH_M: f64 = 0.0254;
-/// Metres in a foot.
-pub const FOOT_M: f64 = 0.3048;
-/// Kilograms in a pound.
-pub const POUND_KG: f64 = 0.453_592_37;
-/// Newtons in a pound of force.
-pub const POUND_N: f64 = POUND_KG * engine::GRAVITY_MPS2;
 /// A slug square foot, kg m².
 pub const SLUG_FT2_KG_M2: f64 = POUND_N * FOOT_M;
-/// Metres a second in a knot.
-pub const KNOT_MPS: f64 = 1852.0 / 3600.0;
-/// Radians a second in a revolution a minute.
-pub const RPM_RADPS: f64 = PI / 30.0;
 
 /// What counts as agreement.
 #[derive(Clone, Copy)]

@@ -1,11 +1,12 @@
 //! Frequency responses, modes, control response, symmetry.
 
-use engine::dense::Complex;
-use engine::linearize::{Linear, decibels, linearize};
+use analysis::linearize::{Linear, decibels, linearize};
+use analysis::modes::{Mode, modes};
+use analysis::trim::{Target, Trim, trim};
+use analysis::variable::Part;
+use analysis::{Complex, Polar, Unsolved};
 use engine::math::{PI, cos, sin, sqrt};
-use engine::modes::{Mode, modes};
 use engine::symmetry::Mirror;
-use engine::trim::{Target, Trim, trim};
 use engine::{Aircraft, Inputs, State};
 
 use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, RPM_RADPS, SLUG_FT2_KG_M2};
@@ -33,34 +34,28 @@ const HOVER_HEAVE: Transfer =
 const CRUISE_PITCH: Transfer =
     Transfer { numerator: &[-7.38, -6.568], denominator: &[1.0, 2.165, 4.080], delay_s: 0.005 };
 
-fn times(a: Complex, b: Complex) -> Complex {
-    Complex { re: a.re * b.re - a.im * b.im, im: a.re * b.im + a.im * b.re }
-}
-
 impl Transfer {
     /// G(jω).
     pub fn at(&self, omega: f64) -> Complex {
-        let s = Complex { re: 0.0, im: omega };
+        let s = Complex::new(0.0, omega);
         let value = |polynomial: &[f64]| {
-            polynomial.iter().fold(Complex::default(), |sum, &coefficient| {
-                let sum = times(sum, s);
-                Complex { re: sum.re + coefficient, im: sum.im }
-            })
+            polynomial
+                .iter()
+                .fold(Complex::new(0.0, 0.0), |sum, &coefficient| sum * s + coefficient)
         };
-        let (top, bottom) = (value(self.numerator), value(self.denominator));
-        let size = bottom.abs() * bottom.abs();
-        let inverse = Complex { re: bottom.re / size, im: -bottom.im / size };
         let angle = -omega * self.delay_s;
-        let delay = Complex { re: cos(angle), im: sin(angle) };
-        times(times(top, inverse), delay)
+        value(self.numerator) / value(self.denominator) * Complex::new(cos(angle), sin(angle))
     }
 }
 
 /// Pitch rate over elevator of a system, in the source's sense: elevator down positive.
-pub fn pitch_over_elevator(aircraft: &Aircraft, linear: &Linear, omega: f64) -> Complex {
+pub fn pitch_over_elevator(
+    aircraft: &Aircraft,
+    linear: &Linear,
+    omega: f64,
+) -> Result<Complex, Unsolved> {
     let gearing = aircraft.fcc.mixer.elevator_per_longitudinal_stick_rad_per_m;
-    let g = linear.response(0, 4, omega);
-    Complex { re: -g.re / gearing, im: -g.im / gearing }
+    Ok(-linear.response(0, 4, omega)? / gearing)
 }
 
 /// Phase within ±180° of another.
@@ -79,11 +74,11 @@ fn compare(
     for &omega in omegas {
         let reference = published.at(omega);
         let found = ours(omega);
-        let reference_db = decibels(reference.abs());
-        let gain = found.as_ref().map(|g| decibels(g.abs())).map_err(Clone::clone);
+        let reference_db = decibels(reference.magnitude());
+        let gain = found.as_ref().map(|g| decibels(g.magnitude())).map_err(Clone::clone);
         case.row(format!("{name} at {omega} rad/s, dB"), reference_db, gain, Band::Within(3.0), 1);
-        let reference_deg = reference.arg_rad() * DEG;
-        let phase = found.map(|g| near_deg(g.arg_rad() * DEG, reference_deg));
+        let reference_deg = reference.phase_rad() * DEG;
+        let phase = found.map(|g| near_deg(g.phase_rad() * DEG, reference_deg));
         case.row(
             format!("{name} at {omega} rad/s, deg"),
             reference_deg,
@@ -122,6 +117,7 @@ fn cruising(aircraft: &Aircraft) -> Result<(Trim, Linear), String> {
 fn mode(found: &Result<(Trim, Linear), String>, name: &str) -> Result<Mode, String> {
     let (trim, linear) = found.as_ref().map_err(Clone::clone)?;
     modes(linear, trim.outputs.airspeed_mps)
+        .map_err(|why| why.to_string())?
         .into_iter()
         .find(|mode| mode.name == name)
         .ok_or_else(|| format!("no mode of ours is called {name}"))
@@ -152,10 +148,8 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
     let hover = hovering(aircraft);
     let cruise = cruising(aircraft);
     let of = |found: &Result<(Trim, Linear), String>, omega: f64| {
-        found
-            .as_ref()
-            .map(|(_, linear)| pitch_over_elevator(aircraft, linear, omega))
-            .map_err(Clone::clone)
+        let (_, linear) = found.as_ref().map_err(Clone::clone)?;
+        pitch_over_elevator(aircraft, linear, omega).map_err(|why| why.to_string())
     };
     let band = [0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0];
     compare(&mut case, "hover q/δe", &band, &HOVER_PITCH, |omega| of(&hover, omega));
@@ -164,8 +158,7 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
     let percent = 0.01 * aircraft.fcc.travel.collective_m / engine::GRAVITY_MPS2;
     compare(&mut case, "hover a_z/lever", &band[..8], &HOVER_HEAVE, |omega| {
         let (_, linear) = hover.as_ref().map_err(Clone::clone)?;
-        let g = linear.response(3, 10, omega);
-        Ok(Complex { re: g.re * percent, im: g.im * percent })
+        linear.response(3, 10, omega).map(|g| g * percent).map_err(|why| why.to_string())
     });
     let pitching = mode(&hover, "hover oscillation in pitch");
     let omega = pitching.as_ref().map(Mode::frequency_radps).map_err(Clone::clone);
@@ -253,9 +246,8 @@ pub fn control(aircraft: &Aircraft, book: &mut Book) {
             let what = format!("SCAS {name}, {label} after 1 s, deg/in");
             case.row(what, attitudes[axis], attitude, Band::Part(0.25), 1);
             let derivatives = found.as_ref().map_err(Clone::clone).map(|(_, linear)| {
-                let slow = linear.quasi_steady(|state| {
-                    state.starts_with("plant.rotors") || state.starts_with("actuators.")
-                });
+                let slow = linear
+                    .quasi_steady(|state| matches!(state.part(), Part::Rotors | Part::Actuators));
                 // Roll, pitch, yaw rate are the states 3, 4, 5.
                 let rate = [4, 3, 5][axis];
                 (-slow.a[(rate, rate)], slow.b[(rate, axis)] * INCH_M)

@@ -2,7 +2,7 @@
 
 use engine::math::{FRAC_PI_2, max, min};
 use engine::{Aircraft, Outputs, STEP_S};
-use recorder::pilots::{Pilot, corridor};
+use recorder::pilots::Pilot;
 use recorder::rehearse;
 
 use crate::book::{Band, Case, FOOT_M, INCH_M, KNOT_MPS};
@@ -51,7 +51,8 @@ fn fly(aircraft: &Aircraft) -> Result<Conversion, String> {
         aircraft::DEFAULT_SCENARIO
     );
     let start = aircraft::start("scenario.toml", &scenario).map_err(|e| e.to_string())?;
-    let pilot = Pilot::named("convert", &aircraft.cockpit).ok_or("no such pilot")?;
+    let corridor = &aircraft.envelope.corridor;
+    let pilot = Pilot::named("convert", &aircraft.cockpit, corridor).ok_or("no such pilot")?;
     let mut flown = Conversion {
         time_s: 0.0,
         inside_mps: f64::INFINITY,
@@ -74,7 +75,7 @@ fn fly(aircraft: &Aircraft) -> Result<Conversion, String> {
         if touched_s.is_none() || down_s.is_some_and(|down_s| time_s > down_s + AFTER_S) {
             return;
         }
-        let inside_mps = corridor::margin_mps(tilt_rad, seen.calibrated_airspeed_mps);
+        let inside_mps = corridor.margin_mps(tilt_rad, seen.calibrated_airspeed_mps);
         flown.inside_mps = min(flown.inside_mps, inside_mps);
         let stick = seen.cockpit.stick_aft_norm;
         flown.stick_norm = (min(flown.stick_norm.0, stick), max(flown.stick_norm.1, stick));

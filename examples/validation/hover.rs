@@ -1,11 +1,11 @@
 //! The isolated rotor, hover, and hover ceilings.
 
+use analysis::trim::{GROUND_FAR_BELOW_M, Target, Trim, settle, trim};
 use engine::Aircraft;
 use engine::State;
 use engine::inputs::World;
 use engine::math::{sqrt, square};
 use engine::pair::Pair;
-use engine::trim::{GROUND_FAR_BELOW_M, Target, Trim, settle, trim};
 
 use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, PI, POUND_N};
 use crate::weighing;

@@ -1,8 +1,8 @@
 //! Fuel, speed, stall, conversion, autorotation.
 
+use analysis::trim::{GROUND_FAR_BELOW_M, Power, Target, Trim, trim};
 use engine::Aircraft;
-use engine::inputs::{World, failures};
-use engine::trim::{GROUND_FAR_BELOW_M, Power, Target, Trim, trim};
+use engine::inputs::{Failures, World};
 
 use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, RPM_RADPS};
 use crate::trims::{at, stick_in, why};
@@ -179,7 +179,7 @@ pub fn autorotation(aircraft: &Aircraft, book: &mut Book) {
         aircraft.clone().with(|a| a.fcc.governor.rotor_speed_radps[0] = 553.0 * RPM_RADPS);
     let world = World {
         ground_height_m: GROUND_FAR_BELOW_M,
-        failures: failures::ENGINE_LEFT | failures::ENGINE_RIGHT,
+        failures: Failures::ENGINES,
         ..World::default()
     };
     let target = Target {

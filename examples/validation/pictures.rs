@@ -1,8 +1,9 @@
 //! Pictures: trim curves and a frequency response against the published points.
 
+use analysis::Polar;
+use analysis::linearize::decibels;
+use analysis::trim::Trim;
 use engine::Aircraft;
-use engine::linearize::decibels;
-use engine::trim::Trim;
 use plotters::prelude::*;
 
 use crate::book::{DEG, KNOT_MPS};
@@ -140,12 +141,13 @@ fn response(aircraft: &Aircraft, text: &mut String) -> Drawn {
     let published = omegas
         .iter()
         .filter(|omega| (0.2..=5.0).contains(*omega))
-        .map(|&omega| (omega, decibels(HOVER_PITCH.at(omega).abs())));
+        .map(|&omega| (omega, decibels(HOVER_PITCH.at(omega).magnitude())));
     let found = hovering(aircraft).ok();
     let ours = found.iter().flat_map(|(_, linear)| {
-        omegas
-            .iter()
-            .map(|&omega| (omega, decibels(pitch_over_elevator(aircraft, linear, omega).abs())))
+        omegas.iter().filter_map(|&omega| {
+            let g = pitch_over_elevator(aircraft, linear, omega).ok()?;
+            Some((omega, decibels(g.magnitude())))
+        })
     });
     let area = SVGBackend::with_string(text, SIZE).into_drawing_area();
     area.fill(&WHITE)?;

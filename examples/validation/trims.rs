@@ -1,7 +1,7 @@
 //! Trim curves.
 
+use analysis::trim::{Failure, Target, Trim, trim};
 use engine::Aircraft;
-use engine::trim::{Failure, Target, Trim, trim};
 
 use crate::book::{Band, Book, Case, DEG, INCH_M, KNOT_MPS, POUND_N};
 

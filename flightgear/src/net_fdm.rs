@@ -31,9 +31,10 @@
 use engine::Outputs;
 use engine::frames::{Body, Vec3};
 use engine::landing_gear::Leg;
-use engine::math::{PI, TAU, atan2, clamp, max, wrap_angle};
-use engine::outputs::validity;
+use engine::math::{TAU, atan2, clamp, max, wrap_angle};
+use engine::outputs::Validity;
 use engine::pair::Pair;
+use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_PER_RADPS};
 use zerocopy::network_endian::{F32, F64, I32, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
@@ -59,12 +60,8 @@ pub const ENGINE_RUNNING: u32 = 2;
 /// [`NetFdm::agl_m`] that leaves the height above ground to FlightGear, which knows its scenery.
 const AGL_UNKNOWN_M: f64 = -9999.0;
 
-const DEG_PER_RAD: f64 = 180.0 / PI;
-const RPM_PER_RADPS: f64 = 60.0 / TAU;
-const M_PER_FT: f64 = 0.3048;
-const MPS_PER_KT: f64 = 1852.0 / 3600.0;
 /// JP-4 at 6.5 lb per US gallon, which makes the XV-15 tanks their 229 gallons. `R+`
-const FUEL_KG_PER_GAL: f64 = 6.5 * 0.453_592_37;
+const FUEL_KG_PER_GAL: f64 = 6.5 * POUND_KG;
 
 /// Elevator and rudder either way, full. `TMX`
 const TAIL_SURFACE_RAD_MAX: f64 = 20.0 / DEG_PER_RAD;
@@ -244,9 +241,9 @@ impl NetFdm {
         let surfaces = &outputs.actuators;
         let gear = &outputs.landing_gear;
         let wheels = [&gear.nose, &gear.main.left, &gear.main.right];
-        let velocity = outputs.velocity_mps * (1.0 / M_PER_FT);
-        let body_velocity = outputs.body_velocity_mps * (1.0 / M_PER_FT);
-        let specific_force = outputs.specific_force_mps2 * (1.0 / M_PER_FT);
+        let velocity = outputs.velocity_mps * (1.0 / FOOT_M);
+        let body_velocity = outputs.body_velocity_mps * (1.0 / FOOT_M);
+        let specific_force = outputs.specific_force_mps2 * (1.0 / FOOT_M);
         let flap_norm = single(surfaces.flap_rad / FLAP_RAD_MAX);
         let rpm = outputs.rotor_speed_radps * RPM_PER_RADPS;
         let fuel_gal = outputs.fuel_kg / FUEL_KG_PER_GAL;
@@ -264,7 +261,7 @@ impl NetFdm {
             phidot_radps: single(outputs.euler_rate.roll_radps),
             thetadot_radps: single(outputs.euler_rate.pitch_radps),
             psidot_radps: single(outputs.euler_rate.heading_radps),
-            vcas_kt: single(outputs.calibrated_airspeed_mps / MPS_PER_KT),
+            vcas_kt: single(outputs.calibrated_airspeed_mps / KNOT_MPS),
             climb_rate_ftps: single(-velocity.z),
             v_north_ftps: single(velocity.x),
             v_east_ftps: single(velocity.y),
@@ -359,14 +356,14 @@ fn heading(heading_rad: f64) -> F32 {
 }
 
 /// To a pilot both mean that the rotors no longer carry what is asked of them.
-fn stall_warning(validity_bits: u64) -> F32 {
-    let stalled = validity_bits & (validity::ROTOR_STALL | validity::VORTEX_RING) != 0;
+fn stall_warning(validity: Validity) -> F32 {
+    let stalled = validity.intersects(Validity::ROTOR_STALL | Validity::VORTEX_RING);
     single(if stalled { 1.0 } else { 0.0 })
 }
 
 /// The ball hangs along the apparent weight. In free fall it has none and stays in its tube.
 fn slip(specific_force_mps2: Vec3<Body>) -> F32 {
-    let up_mps2 = max(-specific_force_mps2.z, M_PER_FT);
+    let up_mps2 = max(-specific_force_mps2.z, FOOT_M);
     single(atan2(-specific_force_mps2.y, up_mps2) * DEG_PER_RAD)
 }
 

@@ -4,6 +4,8 @@ use engine::inputs::World;
 use engine::{STEP_NS, State};
 use serde::{Deserialize, Serialize};
 
+use crate::view::Level;
+
 /// Version of the log's format: its records, channels and seals. The fields of a message are not part
 /// of it; each log names its own.
 pub const FORMAT_VERSION: &str = "2";
@@ -81,52 +83,101 @@ pub struct EventRecord {
     pub value: u64,
 }
 
-/// What an [`EventRecord`] tells.
+/// How grave an event is in `/log`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u64)]
-pub enum Happening {
-    /// The pilot pressed the marker; value: its number.
-    Marker = 1,
-    /// Something failed or was mended; value: the failures now.
-    Failures = 2,
-    /// A device appeared; value: its number.
-    DeviceConnected = 3,
-    /// A device went away; value: its number.
-    DeviceDisconnected = 4,
-    /// The model left its validity or came back; value: the bits now.
-    Validity = 5,
-    /// The simulation was paused (1) or went on (0).
-    Paused = 6,
-    /// The wheels took weight (1) or lost it (0).
-    WeightOnWheels = 7,
-    /// The flight was ended; value: 0 as planned, 1 by the crew, 2 by a signal.
-    Landed = 8,
-    /// A pilot model went on to its next phase; value: its number.
-    Phase = 9,
-    /// The flight, reflown while it went on, was not the same; value: the fields that differ.
-    SelfCheck = 10,
-    /// The log's writer was held up; value: how long, ms.
-    WriterHeldUp = 11,
+pub struct Levels {
+    /// Where its value is 0: nothing is left of it.
+    pub at_zero: Level,
+    /// Otherwise.
+    pub otherwise: Level,
+}
+
+impl Levels {
+    /// The same whatever the value.
+    const fn always(level: Level) -> Self {
+        Self { at_zero: level, otherwise: level }
+    }
+
+    /// Another one where the value is 0.
+    const fn with_zero(at_zero: Level, otherwise: Level) -> Self {
+        Self { at_zero, otherwise }
+    }
+
+    /// That of a value.
+    pub const fn of(self, value: u64) -> Level {
+        if value == 0 { self.at_zero } else { self.otherwise }
+    }
+}
+
+/// What is told of a [`Happening`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HappeningFacts {
+    /// Its name; never changed.
+    pub key: &'static str,
+    /// What happened.
+    pub description: &'static str,
+    /// What the event's value is.
+    pub value: &'static str,
+    /// How grave it is.
+    pub levels: Levels,
+}
+
+engine::enumeration! {
+    /// What an [`EventRecord`] tells.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[repr(u64)]
+    pub enum Happening tells HappeningFacts {
+        /// The pilot pressed the marker.
+        Marker = 1 {
+            key: "marker", value: "its number", levels: Levels::always(Level::Info),
+        }
+        /// Something failed or was mended.
+        Failures = 2 {
+            key: "failures", value: "the failures now", levels: Levels::always(Level::Warn),
+        }
+        /// A device appeared.
+        DeviceConnected = 3 {
+            key: "device_connected", value: "its number", levels: Levels::always(Level::Info),
+        }
+        /// A device went away.
+        DeviceDisconnected = 4 {
+            key: "device_disconnected", value: "its number", levels: Levels::always(Level::Warn),
+        }
+        /// The model left its validity or came back.
+        Validity = 5 {
+            key: "validity", value: "the flags now", levels: Levels::with_zero(Level::Info, Level::Warn),
+        }
+        /// The simulation was paused or went on.
+        Paused = 6 {
+            key: "paused", value: "1 paused, 0 going on", levels: Levels::always(Level::Info),
+        }
+        /// The main wheels took weight or lost it.
+        WeightOnWheels = 7 {
+            key: "weight_on_wheels", value: "1 touchdown, 0 lift-off", levels: Levels::always(Level::Info),
+        }
+        /// The flight was ended.
+        Landed = 8 {
+            key: "landed", value: "0 as planned, 1 by the crew, 2 by a signal", levels: Levels::always(Level::Info),
+        }
+        /// A pilot model went on to its next phase.
+        Phase = 9 {
+            key: "phase", value: "its number", levels: Levels::always(Level::Info),
+        }
+        /// The flight, reflown while it went on, was not the same.
+        SelfCheck = 10 {
+            key: "self_check", value: "how many numbers of the state differ", levels: Levels::always(Level::Error),
+        }
+        /// The log's writer was held up.
+        WriterHeldUp = 11 {
+            key: "writer_held_up", value: "for how long, ms", levels: Levels::always(Level::Warn),
+        }
+    }
 }
 
 impl Happening {
-    const ALL: [Self; 11] = [
-        Self::Marker,
-        Self::Failures,
-        Self::DeviceConnected,
-        Self::DeviceDisconnected,
-        Self::Validity,
-        Self::Paused,
-        Self::WeightOnWheels,
-        Self::Landed,
-        Self::Phase,
-        Self::SelfCheck,
-        Self::WriterHeldUp,
-    ];
-
     /// The one recorded as `kind`, if it is one.
     pub fn from_u64(kind: u64) -> Option<Self> {
-        Self::ALL.into_iter().find(|known| *known as u64 == kind)
+        Self::ALL.iter().copied().find(|&known| known as u64 == kind)
     }
 }
 
@@ -160,6 +211,11 @@ impl Chain {
     /// A chain that starts with `digest`.
     pub fn from(digest: u64) -> Self {
         Self { digest, tick: Vec::new() }
+    }
+
+    /// Goes on from another digest.
+    pub(crate) fn set(&mut self, digest: u64) {
+        self.digest = digest;
     }
 
     /// The last digest.

@@ -6,12 +6,15 @@
 use std::path::Path;
 
 use crate::LogError;
+use crate::channels::{Chain, Channel};
+use crate::open::{OpenOptions, open};
 use crate::reader::{Ending, FlightReader, Messages};
-use crate::records::{HARDWARE, INPUTS, STATE, time_ns};
+use crate::records::{STATE, time_ns};
+use crate::setup::Identity;
 use crate::writer::FlightWriter;
 
 /// What was recovered, and what was not.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Recovery {
     /// Last tick that was kept.
     pub tick: u64,
@@ -29,7 +32,7 @@ pub struct Recovery {
 
 impl Recovery {
     /// Key of the name of the file that a log was recovered from.
-    pub const PARENT: &'static str = "recovered_from";
+    pub const PARENT: &'static str = Identity::RECOVERED_FROM;
     /// Key of the last tick that the recovery kept.
     pub const TICK: &'static str = "recovered_tick";
     /// Key of what was wrong right after it.
@@ -50,7 +53,7 @@ pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogEr
         return Err(LogError::NotRecoverable("it cannot be written over itself".into()));
     }
     let mut recovery = survey(broken)?;
-    let mut reader = FlightReader::open(broken)?;
+    let mut reader = open(broken, OpenOptions::default())?;
     let parent = name_of(broken, &reader);
     let mut identity = std::mem::take(&mut reader.identity);
     if let Some(oddity) = reader.oddity() {
@@ -75,7 +78,7 @@ pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogEr
 
 /// Finds the last tick that can be trusted.
 fn survey(broken: &Path) -> Result<Recovery, LogError> {
-    let mut reader = FlightReader::open(broken)?;
+    let mut reader = open(broken, OpenOptions::default())?;
     if !reader.intact {
         return Err(LogError::NotRecoverable(
             "its aircraft, cockpit map, scenario or first state is not what it was flown with: no \
@@ -83,52 +86,41 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
                 .into(),
         ));
     }
-    if !reader.differences()?.is_empty() {
+    if !reader.differences().is_empty() {
         return Err(LogError::NotRecoverable("its fields are not those of this version".into()));
     }
     let mut recovery = Recovery {
         tick: reader.initial.tick,
-        reason: String::new(),
-        ticks_distrusted: 0,
-        messages_foreign: 0,
         bytes_read: std::fs::metadata(broken).map_err(LogError::Open)?.len(),
-        bytes_written: 0,
+        ..Recovery::default()
     };
     loop {
-        let bad = match reader.next_tick() {
+        let (bad, more) = match reader.next_tick() {
             Ok(Some(tick)) => {
+                let (tick, chained) = (tick.record.state.tick, tick.chained);
                 reader.forget();
-                let tick_now = tick.record.state.tick;
-                if recovery.reason.is_empty() && tick.chained {
-                    recovery.tick = tick_now;
+                if recovery.reason.is_empty() && chained {
+                    recovery.tick = tick;
                     continue;
                 }
                 recovery.ticks_distrusted += 1;
-                format!("the digest breaks at tick {tick_now}")
+                (format!("the digest breaks at tick {tick}"), true)
             }
-            Ok(None) => {
-                let why = match reader.ending() {
-                    Some(Ending::Closed) if recovery.reason.is_empty() => {
-                        return Err(LogError::NotRecoverable("it is whole".into()));
-                    }
-                    Some(Ending::Damaged(why)) => why.clone(),
-                    _ => "it ends without having been closed".into(),
-                };
-                if recovery.reason.is_empty() {
-                    recovery.reason = why;
+            Ok(None) => match reader.ending() {
+                Some(Ending::Closed) if recovery.reason.is_empty() => {
+                    return Err(LogError::NotRecoverable("it is whole".into()));
                 }
-                return Ok(recovery);
-            }
-            Err(error @ (LogError::Order(_) | LogError::Decode(_))) => {
-                if recovery.reason.is_empty() {
-                    recovery.reason = error.to_string();
-                }
-                return Ok(recovery);
-            }
+                Some(Ending::Damaged(why)) => (why.clone(), false),
+                _ => ("it ends without having been closed".into(), false),
+            },
+            Err(error @ (LogError::Order(_) | LogError::Decode(_))) => (error.to_string(), false),
             Err(error) => return Err(error),
         };
         if recovery.reason.is_empty() {
             recovery.reason = bad;
+        }
+        if !more {
+            return Ok(recovery);
         }
     }
 }
@@ -136,8 +128,9 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
 /// Copies the messages up to the state of the last good tick, and what belongs to those ticks.
 fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Result<(), LogError> {
     let mut copied = None;
-    for message in Messages::open(broken)? {
-        let flown = [HARDWARE, INPUTS, STATE].contains(&message.topic());
+    let mut messages = Messages::open(broken, OpenOptions::default())?;
+    while let Some(message) = messages.next_message() {
+        let flown = Channel::of(message.topic()).is_some_and(|c| c.chain != Chain::Outside);
         if flown && copied == Some(recovery.tick) {
             break;
         }
@@ -145,18 +138,15 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
             // Viewers' channels may be a few ticks ahead.
             continue;
         }
-        if !writer.copy(&message)? {
+        if !writer.copy(message)? {
             recovery.messages_foreign += 1;
         }
         if message.topic() == STATE {
             copied = Some(writer.last_tick());
         }
     }
-    if copied == Some(recovery.tick) { Ok(()) } else { Err(changed()) }
-}
-
-fn changed() -> LogError {
-    LogError::Order("the file changed while it was being read".into())
+    let changed = || LogError::Order("the file changed while it was being read".into());
+    (copied == Some(recovery.tick)).then_some(()).ok_or_else(changed)
 }
 
 /// The name of the file; for one that was recovered before, the names of all of them.

@@ -2,8 +2,19 @@
 
 use std::collections::BTreeMap;
 
+use crate::LogError;
+use crate::records::FORMATS_READ;
+
 /// Name of the metadata record that makes an MCAP file a flight of ours.
 pub const METADATA: &str = "tiltrotor";
+
+/// Name of the metadata record that makes a file a compacted log.
+pub(crate) const COMPACT_HEAD: &str = "tiltrotor_compact";
+
+/// Whether a flight is opened with the metadata or the attachment of this name.
+pub(crate) fn opens_a_flight(name: &str) -> bool {
+    name == METADATA || name == COMPACT_HEAD || Setup::NAMES.contains(&name)
+}
 
 /// Name of the metadata record with which the writer closes a log.
 pub(crate) const CLOSING: &str = "tiltrotor_closing";
@@ -43,15 +54,18 @@ impl Setup {
         ]
     }
 
-    /// The text under the name of an attachment, to be filled in.
-    pub(crate) fn file_mut(&mut self, name: &str) -> Option<&mut String> {
+    /// Takes the text of an attachment.
+    pub(crate) fn put(&mut self, name: &str, data: Vec<u8>) -> Result<(), LogError> {
         let [aircraft, cockpit, scenario] = Self::NAMES;
+        let text = String::from_utf8(data)
+            .map_err(|_| LogError::NotAFlight(format!("{name} is not text")))?;
         match name {
-            _ if name == aircraft => Some(&mut self.aircraft_toml),
-            _ if name == cockpit => Some(&mut self.cockpit_toml),
-            _ if name == scenario => Some(&mut self.scenario_toml),
-            _ => None,
+            _ if name == aircraft => self.aircraft_toml = text,
+            _ if name == cockpit => self.cockpit_toml = text,
+            _ if name == scenario => self.scenario_toml = text,
+            _ => {}
         }
+        Ok(())
     }
 }
 
@@ -68,6 +82,9 @@ impl Identity {
     pub const RATE: &'static str = "rate_hz";
     /// Key of the wall clock at the start, ns since the Unix epoch.
     pub const STARTED: &'static str = "started_unix_ns";
+
+    /// Key of the name of the file that a log was recovered from.
+    pub(crate) const RECOVERED_FROM: &'static str = "recovered_from";
 
     /// With what the engine and this crate know of themselves; the caller adds its build.
     pub fn new() -> Self {
@@ -89,5 +106,31 @@ impl Identity {
     pub fn with(mut self, key: &str, value: impl Into<String>) -> Self {
         self.0.insert(key.to_string(), value.into());
         self
+    }
+
+    pub(crate) fn refuse_other_versions(&self) -> Result<(), LogError> {
+        self.refuse_other_formats()?;
+        self.refuse_others(Self::MODEL, "flight model", &[engine::MODEL_VERSION])
+    }
+
+    pub(crate) fn refuse_other_formats(&self) -> Result<(), LogError> {
+        self.refuse_others(Self::FORMAT, "log format", &FORMATS_READ)?;
+        self.refuse_others(Self::RATE, "number of ticks a second", &[RATE_HZ])
+    }
+
+    /// The last of those that are read is the one that is written.
+    fn refuse_others(
+        &self,
+        key: &str,
+        what: &'static str,
+        read: &[&'static str],
+    ) -> Result<(), LogError> {
+        let theirs = self.get(key);
+        match read.last() {
+            Some(ours) if !read.contains(&theirs) => {
+                Err(LogError::Version { what, theirs: theirs.into(), ours })
+            }
+            _ => Ok(()),
+        }
     }
 }

@@ -4,11 +4,12 @@
 //! called `tf#/`, which is where rerun looks.
 
 use engine::frames::{Attitude, Body, Ned, Structural, Vec3};
-use engine::math::{FRAC_PI_2, PI, cos, sin};
+use engine::math::{FRAC_PI_2, cos, sin};
+use engine::units::degrees;
 use engine::{Aircraft, Outputs};
 use serde::Serialize;
 
-use crate::records::OUTPUTS;
+use crate::schema::{MessageType, RULE};
 use crate::{LogError, cdr};
 
 /// Frames of the aircraft and its moving parts.
@@ -26,86 +27,72 @@ pub const LOG: &str = "/log";
 
 const ROOT: &str = "tf#/";
 const BASE: &str = "base_link";
-const RULE: &str =
-    "================================================================================";
 const TIME: &str = "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
 const HEADER: &str = "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
 
-/// A message type of a view channel: its name, and its `ros2msg` definition.
-pub struct Schema {
-    /// Name with package.
-    pub name: &'static str,
-    /// Definition with the types it is made of.
-    pub text: String,
+/// A message type of ROS 2's own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RosType {
+    /// With package.
+    name: &'static str,
+    /// Its fields; the types they are of come after it.
+    own: &'static str,
+    parts: &'static [&'static str],
 }
 
-fn schema(name: &'static str, own: &str, parts: &[&str]) -> Schema {
-    let text = parts.iter().fold(own.to_string(), |text, part| format!("{text}{RULE}\n{part}"));
-    Schema { name, text }
+impl From<RosType> for MessageType {
+    fn from(ros: RosType) -> Self {
+        let own = ros.own.to_string();
+        let text = ros.parts.iter().fold(own, |text, part| format!("{text}{RULE}\n{part}"));
+        Self { name: ros.name.into(), text, layout: None }
+    }
 }
 
-/// `tf2_msgs/msg/TFMessage`.
-pub fn tf_schema() -> Schema {
-    schema(
-        "tf2_msgs/msg/TFMessage",
-        "geometry_msgs/TransformStamped[] transforms\n",
-        &[
-            "MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n\
-             geometry_msgs/Transform transform\n",
-            HEADER,
-            TIME,
-            "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n\
-             geometry_msgs/Quaternion rotation\n",
-            "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n",
-            "MSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n",
-        ],
-    )
-}
+pub(crate) const TF_TYPE: RosType = RosType {
+    name: "tf2_msgs/msg/TFMessage",
+    own: "geometry_msgs/TransformStamped[] transforms\n",
+    parts: &[
+        "MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n\
+         geometry_msgs/Transform transform\n",
+        HEADER,
+        TIME,
+        "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n\
+         geometry_msgs/Quaternion rotation\n",
+        "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n",
+        "MSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n",
+    ],
+};
 
-/// `std_msgs/msg/String`.
-pub fn string_schema() -> Schema {
-    schema("std_msgs/msg/String", "string data\n", &[])
-}
+pub(crate) const STRING_TYPE: RosType =
+    RosType { name: "std_msgs/msg/String", own: "string data\n", parts: &[] };
 
-/// `sensor_msgs/msg/Joy`.
-pub fn joy_schema() -> Schema {
-    schema(
-        "sensor_msgs/msg/Joy",
-        "std_msgs/Header header\nfloat32[] axes\nint32[] buttons\n",
-        &[HEADER, TIME],
-    )
-}
+pub(crate) const JOY_TYPE: RosType = RosType {
+    name: "sensor_msgs/msg/Joy",
+    own: "std_msgs/Header header\nfloat32[] axes\nint32[] buttons\n",
+    parts: &[HEADER, TIME],
+};
 
-/// `sensor_msgs/msg/NavSatFix`.
-pub fn fix_schema() -> Schema {
-    schema(
-        "sensor_msgs/msg/NavSatFix",
-        "std_msgs/Header header\nsensor_msgs/NavSatStatus status\nfloat64 latitude\n\
-         float64 longitude\nfloat64 altitude\nfloat64[9] position_covariance\n\
-         uint8 position_covariance_type\n",
-        &[HEADER, TIME, "MSG: sensor_msgs/NavSatStatus\nint8 status\nuint16 service\n"],
-    )
-}
+pub(crate) const FIX_TYPE: RosType = RosType {
+    name: "sensor_msgs/msg/NavSatFix",
+    own: "std_msgs/Header header\nsensor_msgs/NavSatStatus status\nfloat64 latitude\n\
+          float64 longitude\nfloat64 altitude\nfloat64[9] position_covariance\n\
+          uint8 position_covariance_type\n",
+    parts: &[HEADER, TIME, "MSG: sensor_msgs/NavSatStatus\nint8 status\nuint16 service\n"],
+};
 
-/// `sensor_msgs/msg/JointState`.
-pub fn joint_schema() -> Schema {
-    schema(
-        "sensor_msgs/msg/JointState",
-        "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n\
-         float64[] effort\n",
-        &[HEADER, TIME],
-    )
-}
+pub(crate) const JOINT_TYPE: RosType = RosType {
+    name: "sensor_msgs/msg/JointState",
+    own: "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n\
+          float64[] effort\n",
+    parts: &[HEADER, TIME],
+};
 
-/// `rcl_interfaces/msg/Log`.
-pub fn log_schema() -> Schema {
-    schema(
-        "rcl_interfaces/msg/Log",
-        "builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\nstring file\n\
-         string function\nuint32 line\n",
-        &[TIME],
-    )
-}
+pub(crate) const LOG_TYPE: RosType = RosType {
+    name: "rcl_interfaces/msg/Log",
+    own: "builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\nstring file\n\
+          string function\nuint32 line\n",
+    parts: &[TIME],
+};
 
 #[derive(Serialize)]
 struct Time {
@@ -217,11 +204,7 @@ pub fn remark(message: &[u8]) -> Result<Remark, LogError> {
         _name: String,
         msg: String,
     }
-    let body = message
-        .strip_prefix(&cdr::HEADER)
-        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
-    let (said, _) = cdr_encoding::from_bytes::<Said, byteorder::LittleEndian>(body)
-        .map_err(|_| LogError::Decode("not the words of a /log message".into()))?;
+    let said: Said = cdr::decode_view(message, "the words of a /log message")?;
     let known = [Level::Info, Level::Warn, Level::Error];
     Ok(Remark {
         time_ns: u64::from(said.sec.unsigned_abs()) * 1_000_000_000 + u64::from(said.nanosec),
@@ -239,12 +222,7 @@ pub fn text(message: &[u8]) -> Result<String, LogError> {
     struct Said {
         data: String,
     }
-    let body = message
-        .strip_prefix(&cdr::HEADER)
-        .ok_or_else(|| LogError::Decode("not a little-endian CDR message".into()))?;
-    cdr_encoding::from_bytes::<Said, byteorder::LittleEndian>(body)
-        .map(|(said, _)| said.data)
-        .map_err(|_| LogError::Decode("not a text".into()))
+    cdr::decode_view(message, "a text").map(|said: Said| said.data)
 }
 
 fn stamp(tick: u64) -> Time {
@@ -297,28 +275,9 @@ impl Shape {
     }
 }
 
-/// The message of a channel that is made from one tick's outputs; `None` on any other channel.
-///
-/// # Errors
-/// When it has no form as a message.
-pub fn message(
-    topic: &str,
-    outputs: &Outputs,
-    attitude: Attitude,
-    shape: &Shape,
-) -> Result<Option<Vec<u8>>, LogError> {
-    match topic {
-        OUTPUTS => cdr::encode(outputs),
-        TF => {
-            let pivot = shape.pivot_m.from_cg(outputs.balance.cg_m);
-            cdr::encode_view(&tf(outputs, attitude, pivot, shape.mast_m))
-        }
-        JOY => cdr::encode_view(&joy(outputs)),
-        JOINT_STATES => cdr::encode_view(&joint_states(outputs)),
-        FIX => cdr::encode_view(&fix(outputs)),
-        _ => return Ok(None),
-    }
-    .map(Some)
+/// `/tf` of one tick.
+pub(crate) fn frames(outputs: &Outputs, attitude: Attitude, shape: &Shape) -> Tf {
+    tf(outputs, attitude, shape.pivot_m.from_cg(outputs.balance.cg_m), shape.mast_m)
 }
 
 /// Frames: the aircraft in the world, nacelles on the aircraft, rotors on the nacelles.
@@ -376,8 +335,8 @@ pub fn fix(outputs: &Outputs) -> Fix {
         header: header(outputs.tick, BASE),
         status: 0,
         service: 1,
-        latitude: outputs.place.latitude_rad * 180.0 / PI,
-        longitude: outputs.place.longitude_rad * 180.0 / PI,
+        latitude: degrees(outputs.place.latitude_rad),
+        longitude: degrees(outputs.place.longitude_rad),
         altitude: outputs.place.height_m,
         position_covariance: [0.0; 9],
         position_covariance_type: 0,

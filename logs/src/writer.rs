@@ -1,7 +1,7 @@
 //! Writing a flight.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufWriter, Seek};
 use std::path::Path;
 
@@ -13,52 +13,30 @@ use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
-use crate::reader::{Message, RECORD_BYTES_MAX};
+use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
+use crate::container::RECORD_BYTES_MAX;
+use crate::container::checksums::{RollCall, seal};
+use crate::reader::Message;
 use crate::records::{
-    Chain, EVENTS, EventRecord, HARDWARE, Happening, INPUTS, InputsRecord, OUTPUTS, STATE,
-    StateRecord, TIMING, TimingRecord, first_digest, time_ns,
+    Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest, time_ns,
 };
-use crate::schema::{self, Kind};
-use crate::seal::{RollCall, Stamp, seal};
+use crate::schema::{self, MessageType};
 use crate::setup::{
     CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, Setup,
 };
-use crate::view::{self, Level};
+use crate::view;
 use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
 pub(crate) const CHUNK_BYTES: u64 = 128 * 1024;
 /// The longest text that fits into a log, with room for its record's frame.
 const TEXT_BYTES_MAX: usize = RECORD_BYTES_MAX - 1024;
-/// Ticks between frames, stick positions and joints for viewers: 50 Hz.
-const VIEW_TICKS: u64 = 5;
-/// Ticks between outputs: 25 Hz.
-const OUTPUT_TICKS: u64 = 10;
-/// Ticks between places on earth: 5 Hz.
-const FIX_TICKS: u64 = 50;
-
-/// Ids of the channels.
-struct Channels {
-    hardware: u16,
-    inputs: u16,
-    state: u16,
-    timing: u16,
-    events: u16,
-    outputs: u16,
-    tf: u16,
-    joy: u16,
-    fix: u16,
-    joints: u16,
-    log: u16,
-    description: u16,
-}
-
 /// A flight being written.
 pub struct FlightWriter {
     /// Never seeks: a pipe will do.
     mcap: Writer<NoSeek<BufWriter<File>>>,
-    channels: Channels,
-    kinds: BTreeMap<u16, &'static Kind>,
+    /// Numbers of the channels in the file, and what their messages are, in the order of the table.
+    channels: Vec<(u16, &'static MessageType)>,
     chain: Chain,
     roll_call: RollCall,
     /// Whether the state at the start is in it.
@@ -94,13 +72,13 @@ impl FlightWriter {
         let mut writer = Self::begin(path, setup, identity, force)?;
         writer.shape = view::Shape::of(aircraft);
         let text = cdr::encode_view(&view::Text { data: robot_description })?;
-        writer.put(writer.channels.description, initial.tick, &text)?;
+        writer.put(ChannelId::RobotDescription, initial.tick, &text)?;
         let digest = first_digest(&setup.files(), &cdr::encode(initial)?);
         writer.chain = Chain::from(digest);
         writer.last_tick = initial.tick;
         writer.begun = true;
         let first = StateRecord { digest, state: *initial };
-        writer.record(writer.channels.state, initial.tick, &first)?;
+        writer.record(ChannelId::State, initial.tick, &first)?;
         writer.flush()?;
         Ok(writer)
     }
@@ -119,13 +97,7 @@ impl FlightWriter {
             let (bytes, most) = (text.len(), TEXT_BYTES_MAX);
             return Err(LogError::Encode(format!("{name}: {bytes} bytes, at most {most} fit")));
         }
-        let file = OpenOptions::new()
-            .write(true)
-            .create(true)
-            .truncate(force)
-            .create_new(!force)
-            .open(path)
-            .map_err(|error| LogError::create(path, error))?;
+        let file = create(path, force)?;
         let mut mcap = WriteOptions::new()
             .compression(Some(Compression::Lz4))
             .profile("ros2")
@@ -145,35 +117,16 @@ impl FlightWriter {
                 data: text.as_bytes().into(),
             })?;
         }
-        let mut kinds = BTreeMap::new();
-        let mut add = |kind: &'static Kind| -> Result<u16, LogError> {
+        let mut channels = Vec::with_capacity(CHANNELS.len());
+        for channel in &CHANNELS {
+            let kind = channel.message_type()?;
             let schema = mcap.add_schema(&kind.name, schema::ENCODING, kind.text.as_bytes())?;
-            let id = mcap.add_channel(schema, kind.topic, cdr::ENCODING, &BTreeMap::new())?;
-            kinds.insert(id, kind);
-            Ok(id)
-        };
-        let mut channel = |topic: &str| -> Result<u16, LogError> {
-            let kind = schema::kinds()?.iter().find(|kind| kind.topic == topic);
-            add(kind.ok_or_else(|| LogError::Encode(format!("no channel {topic}")))?)
-        };
-        let channels = Channels {
-            hardware: channel(HARDWARE)?,
-            inputs: channel(INPUTS)?,
-            state: channel(STATE)?,
-            timing: channel(TIMING)?,
-            events: channel(EVENTS)?,
-            outputs: channel(OUTPUTS)?,
-            tf: channel(view::TF)?,
-            joy: channel(view::JOY)?,
-            fix: channel(view::FIX)?,
-            joints: channel(view::JOINT_STATES)?,
-            log: channel(view::LOG)?,
-            description: channel(view::ROBOT_DESCRIPTION)?,
-        };
+            let id = mcap.add_channel(schema, channel.topic, cdr::ENCODING, &BTreeMap::new())?;
+            channels.push((id, kind));
+        }
         Ok(Self {
             mcap,
             channels,
-            kinds,
             chain: Chain::default(),
             roll_call: RollCall::default(),
             begun: false,
@@ -188,9 +141,7 @@ impl FlightWriter {
     /// # Errors
     /// When the file cannot be written.
     pub fn event(&mut self, event: &DeviceEvent) -> Result<(), LogError> {
-        self.record(self.channels.hardware, event.tick, event)?;
-        self.chain.add(&self.message);
-        Ok(())
+        self.record(ChannelId::Hardware, event.tick, event)
     }
 
     /// The world of the tick under way, after its device events.
@@ -198,9 +149,7 @@ impl FlightWriter {
     /// # Errors
     /// When the file cannot be written.
     pub fn inputs(&mut self, inputs: &InputsRecord) -> Result<(), LogError> {
-        self.record(self.channels.inputs, inputs.tick, inputs)?;
-        self.chain.add(&self.message);
-        Ok(())
+        self.record(ChannelId::Inputs, inputs.tick, inputs)
     }
 
     /// The state after the tick.
@@ -212,7 +161,7 @@ impl FlightWriter {
         cdr::append(&mut self.message, state)?;
         let digest = self.chain.close(&self.message);
         self.last_tick = state.tick;
-        self.record(self.channels.state, state.tick, &StateRecord { digest, state: *state })
+        self.record(ChannelId::State, state.tick, &StateRecord { digest, state: *state })
     }
 
     /// How the tick kept time.
@@ -220,7 +169,7 @@ impl FlightWriter {
     /// # Errors
     /// When the file cannot be written.
     pub fn timing(&mut self, timing: &TimingRecord) -> Result<(), LogError> {
-        self.record(self.channels.timing, timing.tick, timing)
+        self.record(ChannelId::Timing, timing.tick, timing)
     }
 
     /// Something that happened, as a record and in words.
@@ -232,13 +181,13 @@ impl FlightWriter {
         tick: u64,
         what: Happening,
         value: u64,
-        level: Level,
         words: &str,
     ) -> Result<(), LogError> {
+        let level = what.facts().levels.of(value);
         let record = EventRecord { tick, kind: what as u64, value };
-        self.record(self.channels.events, tick, &record)?;
+        self.record(ChannelId::Events, tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;
-        self.put(self.channels.log, tick, &message)
+        self.put(ChannelId::Log, tick, &message)
     }
 
     /// A message of another log as it stands there; `false` when no channel of ours is called so.
@@ -248,11 +197,10 @@ impl FlightWriter {
     /// # Errors
     /// When the file cannot be written, or the message does not follow from those before.
     pub(crate) fn copy(&mut self, message: &Message) -> Result<bool, LogError> {
-        let known = self.kinds.iter().find(|(_, kind)| kind.topic == message.topic());
-        let Some((&channel, _)) = known else { return Ok(false) };
-        match message.topic() {
-            HARDWARE | INPUTS => self.chain.add(&message.data),
-            STATE => {
+        let Some(channel) = Channel::of(message.topic()) else { return Ok(false) };
+        match channel.chain {
+            InChain::Adds => self.chain.add(&message.data),
+            InChain::Closes => {
                 let record: StateRecord = cdr::decode(&message.data)?;
                 let state = cdr::encode(&record.state)?;
                 // The first digest is not formed from messages alone: the reader has looked at it.
@@ -265,9 +213,9 @@ impl FlightWriter {
                 self.begun = true;
                 self.last_tick = record.state.tick;
             }
-            _ => {}
+            InChain::Outside => {}
         }
-        self.stamped(channel, message.stamp, &message.data)?;
+        self.stamped(channel.id, message.header, &message.data)?;
         Ok(true)
     }
 
@@ -282,21 +230,17 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn view(&mut self, outputs: &Outputs, attitude: Attitude) -> Result<(), LogError> {
         let tick = outputs.tick;
-        let channels = &self.channels;
-        let due = [
-            (channels.outputs, OUTPUTS, OUTPUT_TICKS),
-            (channels.tf, view::TF, VIEW_TICKS),
-            (channels.joy, view::JOY, VIEW_TICKS),
-            (channels.joints, view::JOINT_STATES, VIEW_TICKS),
-            (channels.fix, view::FIX, FIX_TICKS),
-        ];
-        for (channel, topic, ticks) in due {
-            if tick.is_multiple_of(ticks)
-                && let Some(message) = view::message(topic, outputs, attitude, &self.shape)?
+        let mut message = std::mem::take(&mut self.message);
+        for channel in &CHANNELS {
+            if let Written::FromOutputs { ticks, message: make } = channel.written
+                && tick.is_multiple_of(ticks)
             {
-                self.put(channel, tick, &message)?;
+                message.clear();
+                make(&mut message, outputs, attitude, &self.shape)?;
+                self.put(channel.id, tick, &message)?;
             }
         }
+        self.message = message;
         Ok(())
     }
 
@@ -330,39 +274,57 @@ impl FlightWriter {
         Ok(Closed { bytes, digest })
     }
 
-    /// Writes a recorded struct; its bytes stay in `self.message`.
-    fn record<T: Serialize>(&mut self, channel: u16, tick: u64, value: &T) -> Result<(), LogError> {
+    /// Writes a recorded struct.
+    fn record<T: Serialize>(
+        &mut self,
+        channel: ChannelId,
+        tick: u64,
+        value: &T,
+    ) -> Result<(), LogError> {
         let mut message = std::mem::take(&mut self.message);
         message.clear();
         cdr::append(&mut message, value)?;
         let written = self.put(channel, tick, &message);
+        if CHANNELS[channel as usize].chain == InChain::Adds {
+            self.chain.add(&message);
+        }
         self.message = message;
         written
     }
 
-    fn put(&mut self, channel: u16, tick: u64, message: &[u8]) -> Result<(), LogError> {
-        let log_time_ns = time_ns(tick);
-        // The sequence wraps after half a year of flight.
-        let sequence = tick as u32;
-        self.stamped(
-            channel,
-            Stamp { sequence, log_time_ns, publish_time_ns: log_time_ns },
-            message,
-        )
+    fn put(&mut self, channel: ChannelId, tick: u64, message: &[u8]) -> Result<(), LogError> {
+        self.stamped(channel, stamped(0, tick), message)
     }
 
     /// Every message goes through here.
-    fn stamped(&mut self, channel_id: u16, stamp: Stamp, message: &[u8]) -> Result<(), LogError> {
-        let header = MessageHeader {
-            channel_id,
-            sequence: stamp.sequence,
-            log_time: stamp.log_time_ns,
-            publish_time: stamp.publish_time_ns,
-        };
+    fn stamped(
+        &mut self,
+        channel: ChannelId,
+        header: MessageHeader,
+        message: &[u8],
+    ) -> Result<(), LogError> {
+        let (channel_id, kind) = self.channels[channel as usize];
+        let header = MessageHeader { channel_id, ..header };
         self.mcap.write_to_known_channel(&header, message)?;
-        if let Some(kind) = self.kinds.get(&channel_id) {
-            self.roll_call.add(kind.topic, kind.text.as_bytes(), stamp, message);
-        }
+        let topic = CHANNELS[channel as usize].topic;
+        self.roll_call.add(topic, kind.text.as_bytes(), &header, message);
         Ok(())
     }
+}
+
+/// The header of a tick's message. The sequence wraps after half a year of flight.
+pub(crate) fn stamped(channel_id: u16, tick: u64) -> MessageHeader {
+    let log_time = time_ns(tick);
+    MessageHeader { channel_id, sequence: tick as u32, log_time, publish_time: log_time }
+}
+
+/// A file to be written.
+pub(crate) fn create(path: &Path, force: bool) -> Result<File, LogError> {
+    File::options()
+        .write(true)
+        .create(true)
+        .truncate(force)
+        .create_new(!force)
+        .open(path)
+        .map_err(|error| LogError::create(path, error))
 }

@@ -15,7 +15,6 @@ use std::thread;
 use engine::inputs::{DeviceEvent, EventKind};
 use engine::{Inputs, Outputs, State, step};
 use logs::records::{Happening, InputsRecord, TimingRecord};
-use logs::view::Level;
 use logs::{Ending, FlightReader, FlightWriter, Identity, LogError, Setup};
 
 /// Resident memory that reading may take beyond what the process had before.
@@ -124,7 +123,7 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
         writer
             .timing(&TimingRecord { tick, step_ns: 9_000, ..Default::default() })
             .expect("written");
-        writer.happened(tick, Happening::Marker, 1, Level::Info, "marker 1").expect("written");
+        writer.happened(tick, Happening::Marker, 1, "marker 1").expect("written");
         let outputs = Outputs { tick: 50 * tick, ..Default::default() };
         writer.view(&outputs, state.plant.attitude).expect("written");
         writer.flush().expect("written");

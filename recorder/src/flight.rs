@@ -166,7 +166,7 @@ pub enum FlyError {
     Log(#[from] LogError),
     /// There is no steady flight to begin in.
     #[error("the flight cannot begin in the air")]
-    Trim(#[from] engine::trim::Failure),
+    Trim(#[from] analysis::trim::Failure),
 }
 
 /// Flies until the hands are done, the time is up, or `progress.stop` is set.
@@ -175,7 +175,7 @@ pub enum FlyError {
 /// When the log cannot be begun, or the flight. What goes wrong later is in the [`Landing`].
 pub fn fly(mut flight: Flight, progress: &Progress) -> Result<Landing, FlyError> {
     let aircraft = flight.aircraft;
-    let mut state = flight.start.state(&aircraft)?;
+    let mut state = analysis::start::state_at(&flight.start, &aircraft)?;
     let world = flight.start.world.world();
     let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
     let writer = FlightWriter::create(
@@ -338,7 +338,7 @@ impl Crew {
 
 #[cfg(test)]
 mod tests {
-    use logs::FlightReader;
+    use logs::OpenOptions;
     use logs::records::Happening;
 
     use super::*;
@@ -375,7 +375,7 @@ mod tests {
     }
 
     fn self_checks(log: &std::path::Path) -> Vec<(u64, u64, String)> {
-        let mut reader = FlightReader::open(log).unwrap();
+        let mut reader = logs::open(log, OpenOptions::default()).unwrap();
         while reader.next_tick().unwrap().is_some() {}
         let words = reader.remarks.iter().filter(|remark| remark.words.contains("self-check"));
         let mut words = words.map(|remark| remark.words.clone());

@@ -1,9 +1,10 @@
 //! A flight without clock, log and link: for tests, and for whoever asks the model a question that
 //! takes a pilot.
 
+use analysis::{start::state_at, trim};
 use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
-use engine::{Aircraft, Inputs, Outputs, State, step, trim};
+use engine::{Aircraft, Inputs, Outputs, State, step};
 
 use crate::flight::Crew;
 use crate::hands::Hands;
@@ -34,7 +35,7 @@ pub fn rehearse(
     ticks_max: u64,
     mut look: impl FnMut(&RehearsedTick<'_>),
 ) -> Result<(State, Outputs), trim::Failure> {
-    let mut state = start.state(aircraft)?;
+    let mut state = state_at(start, aircraft)?;
     let mut crew = Crew::new(hands, start.world.world());
     let mut outputs = crew.first_look(aircraft, &state);
     let mut events = Vec::new();

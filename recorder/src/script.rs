@@ -23,10 +23,12 @@ use std::collections::BTreeMap;
 
 use engine::cockpit::{self, AxisControl, ButtonControl};
 use engine::frames::Vec3;
-use engine::inputs::failures;
-use engine::math::{PI, cos, sin};
+use engine::inputs::Failures;
+use engine::math::{cos, sin};
+use engine::units::{mps_of_knots, radians};
 use engine::{Outputs, STEP_S};
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 
 use crate::hands::{Hands, Reach};
 use crate::pilots::VirtualDevice;
@@ -68,27 +70,15 @@ struct File {
     event: Vec<Event>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Failure {
-    EngineLeft,
-    EngineRight,
-    ScasPitch,
-    ScasRoll,
-    ScasYaw,
-    Governor,
-}
+/// One of the engine's failures, by its key.
+#[derive(Clone, Copy, Debug)]
+struct Failure(Failures);
 
-impl Failure {
-    fn bit(self) -> u64 {
-        match self {
-            Self::EngineLeft => failures::ENGINE_LEFT,
-            Self::EngineRight => failures::ENGINE_RIGHT,
-            Self::ScasPitch => failures::SCAS_PITCH,
-            Self::ScasRoll => failures::SCAS_ROLL,
-            Self::ScasYaw => failures::SCAS_YAW,
-            Self::Governor => failures::GOVERNOR,
-        }
+impl<'de> Deserialize<'de> for Failure {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let key = String::deserialize(deserializer)?;
+        let failure = Failures::from_key(&key);
+        failure.map(Self).ok_or_else(|| D::Error::unknown_variant(&key, Failures::KEYS))
     }
 }
 
@@ -170,7 +160,7 @@ impl Script {
         let device = VirtualDevice::of(map).ok_or(ScriptError::NoDevice)?;
         let mut events = Vec::new();
         for (i, event) in parsed.event.into_iter().enumerate() {
-            let axes = check(&event).map_err(|what| ScriptError::Event {
+            let axes = check(&event, &device).map_err(|what| ScriptError::Event {
                 file: file.into(),
                 number: i + 1,
                 at_s: event.at_s,
@@ -202,13 +192,13 @@ impl Script {
             self.device.press(reach, button, false);
         }
         for failure in &event.fail {
-            reach.world.failures |= failure.bit();
+            reach.world.failures.insert(failure.0);
         }
         for failure in &event.mend {
-            reach.world.failures &= !failure.bit();
+            reach.world.failures.remove(failure.0);
         }
         if let Some(Wind { from_deg, kt }) = event.wind {
-            let (from_rad, mps) = (from_deg * PI / 180.0, kt * 1852.0 / 3600.0);
+            let (from_rad, mps) = (radians(from_deg), mps_of_knots(kt));
             reach.world.wind_mps = Vec3::new(-mps * cos(from_rad), -mps * sin(from_rad), 0.0);
         }
         if let Some(gust) = event.gust {
@@ -229,7 +219,7 @@ impl Script {
 }
 
 /// The event's axes by control, or what is wrong with it.
-fn check(event: &Event) -> Result<Vec<(AxisControl, f64)>, String> {
+fn check(event: &Event, device: &VirtualDevice) -> Result<Vec<(AxisControl, f64)>, String> {
     if !event.at_s.is_finite() || event.at_s < 0.0 {
         return Err(format!("at_s: expected 0 s or later, got {}", event.at_s));
     }
@@ -252,31 +242,25 @@ fn check(event: &Event) -> Result<Vec<(AxisControl, f64)>, String> {
     {
         return Err(format!("turbulence_mps: expected 0 to 15 m/s, got {turbulence_mps}"));
     }
-    event
-        .axis
-        .iter()
-        .map(|(name, &to_norm)| {
-            let (control, low) = match name.as_str() {
-                "stick_aft" => (AxisControl::StickAft, -1.0),
-                "stick_right" => (AxisControl::StickRight, -1.0),
-                "collective" => (AxisControl::Collective, 0.0),
-                "pedal_right" => (AxisControl::PedalRight, -1.0),
-                "brake_left" => (AxisControl::BrakeLeft, 0.0),
-                "brake_right" => (AxisControl::BrakeRight, 0.0),
-                _ => {
-                    return Err(format!(
-                        "axis.{name}: expected stick_aft, stick_right, collective, pedal_right, \
-                         brake_left or brake_right"
-                    ));
-                }
-            };
-            if (low..=1.0).contains(&to_norm) {
-                Ok((control, to_norm))
-            } else {
-                Err(format!("axis.{name}: expected {low} to 1, got {to_norm}"))
-            }
-        })
-        .collect()
+    event.axis.iter().map(|(key, &to_norm)| check_axis(device, key, to_norm)).collect()
+}
+
+/// The control of an axis by its key, if the device has it and it goes so far.
+fn check_axis(
+    device: &VirtualDevice,
+    key: &str,
+    to_norm: f64,
+) -> Result<(AxisControl, f64), String> {
+    let Some(control) = device.axes().find(|control| control.facts().key == key) else {
+        let keys: Vec<&str> = device.axes().map(|control| control.facts().key).collect();
+        return Err(format!("axis.{key}: expected one of {}", keys.join(", ")));
+    };
+    let low_norm = control.facts().travel.low_norm();
+    if (low_norm..=1.0).contains(&to_norm) {
+        Ok((control, to_norm))
+    } else {
+        Err(format!("axis.{key}: expected {low_norm} to 1, got {to_norm}"))
+    }
 }
 
 impl Hands for Script {

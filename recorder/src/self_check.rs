@@ -270,7 +270,7 @@ mod tests {
     ) -> (Checked, Vec<Mismatch>) {
         let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
         let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
-        let mut state = start.state(&aircraft).unwrap();
+        let mut state = start.on_wheels(&aircraft);
         let (tell, told) = mpsc::channel();
         let mut check = SelfCheck::start(&aircraft, &state, tell, Arc::default());
         for tick in 0..ticks {

@@ -14,7 +14,6 @@ use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
 use logs::records::{Happening, InputsRecord, TimingRecord};
-use logs::view::Level;
 use logs::{Closed, FlightWriter, LogError, Narrator};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
@@ -252,7 +251,7 @@ impl Scribe {
             took.as_secs_f64()
         );
         let (what, ms) = (Happening::WriterHeldUp, took.as_millis() as u64);
-        let written = writer.happened(self.tick, what, ms, Level::Warn, &words);
+        let written = writer.happened(self.tick, what, ms, &words);
         self.keep(written);
     }
 
@@ -263,7 +262,7 @@ impl Scribe {
             "self-check: tick {tick}, reflown in flight, was not the same: {fields} numbers of the \
              state, first {path}"
         );
-        writer.happened(*tick, Happening::SelfCheck, *fields, Level::Error, &words)
+        writer.happened(*tick, Happening::SelfCheck, *fields, &words)
     }
 
     fn write(&mut self, item: &ToRecord) -> Result<(), LogError> {
@@ -284,7 +283,7 @@ impl Scribe {
             }
             ToRecord::Timing(timing) => writer.timing(timing),
             ToRecord::Phase(tick, number, name) => {
-                writer.happened(*tick, Happening::Phase, *number, Level::Info, name)
+                writer.happened(*tick, Happening::Phase, *number, name)
             }
             ToRecord::Landed(tick, reason) => {
                 let words = match reason {
@@ -292,7 +291,7 @@ impl Scribe {
                     1 => "ended by the crew",
                     _ => "ended by a signal",
                 };
-                writer.happened(*tick, Happening::Landed, *reason, Level::Info, words)
+                writer.happened(*tick, Happening::Landed, *reason, words)
             }
         }
     }

@@ -2,17 +2,16 @@
 //! differently from the one they learned on.
 
 use engine::aircraft::Params;
-use engine::inputs::failures;
-use engine::math::{PI, max, min};
-use engine::outputs::validity;
+use engine::envelope::Corridor;
+use engine::inputs::Failures;
+use engine::math::{max, min};
+use engine::outputs::Validity;
 use engine::start::Start;
+use engine::units::{DEGREE_RAD as DEG, KNOT_MPS, RPM_RADPS as RPM};
 use engine::{Aircraft, Outputs, State};
-use recorder::pilots::corridor::{self, KNOT_MPS};
 use recorder::pilots::{PILOTS, Pilot};
 use recorder::{Flight, Hands, Progress, Reach, RehearsedTick, fly, rehearse};
 
-const DEG: f64 = PI / 180.0;
-const RPM: f64 = PI / 30.0;
 const TICKS_PER_S: u64 = 250;
 
 /// Greatest sink rate at touchdown that the gear was designed for, m/s: 10 ft/s (TM X-62,407 §10.6).
@@ -62,7 +61,8 @@ fn aloft(nacelle_deg: f64, speed_kt: f64) -> Start {
 }
 
 fn pilot(name: &str, aircraft: &Aircraft) -> Vec<Box<dyn Hands>> {
-    vec![Box::new(Pilot::named(name, &aircraft.cockpit).expect(name))]
+    let corridor = &aircraft.envelope.corridor;
+    vec![Box::new(Pilot::named(name, &aircraft.cockpit, corridor).expect(name))]
 }
 
 /// What is remembered of a flight.
@@ -83,7 +83,7 @@ struct Story {
     load_factor: f64,
     leg_n: f64,
     bank_rad: f64,
-    outside: u64,
+    outside: Validity,
     end: Outputs,
 }
 
@@ -92,12 +92,14 @@ impl Story {
         let mut story =
             Self { corridor_mps: f64::INFINITY, rotor_radps_low: f64::INFINITY, ..Self::default() };
         let ticks = seconds * TICKS_PER_S;
-        let flown = rehearse(aircraft, start, pilot(name, aircraft), ticks, |now| story.see(now));
+        let flown = rehearse(aircraft, start, pilot(name, aircraft), ticks, |now| {
+            story.see(&aircraft.envelope.corridor, now);
+        });
         story.end = flown.unwrap_or_else(|failure| panic!("{failure}")).1;
         story
     }
 
-    fn see(&mut self, now: &RehearsedTick<'_>) {
+    fn see(&mut self, corridor: &Corridor, now: &RehearsedTick<'_>) {
         let (state, seen) = (now.state, now.outputs);
         if self.phases.last() != Some(&now.phase) {
             self.phases.push(now.phase);
@@ -119,7 +121,7 @@ impl Story {
             self.turned_left_rad -= seen.euler_rate.heading_radps * engine::STEP_S;
         }
         if wheels == 0 {
-            let inside_mps = corridor::margin_mps(tilt_rad, seen.calibrated_airspeed_mps);
+            let inside_mps = corridor.margin_mps(tilt_rad, seen.calibrated_airspeed_mps);
             self.corridor_mps = min(self.corridor_mps, inside_mps);
             self.rotor_radps_low = min(self.rotor_radps_low, seen.rotor_speed_radps);
         }
@@ -145,7 +147,7 @@ impl Story {
         let off_m =
             (end.position_m.x * end.position_m.x + end.position_m.y * end.position_m.y).sqrt();
         let broken =
-            validity::GEAR_BOTTOMED | validity::HULL | validity::FROZEN | validity::TUMBLING;
+            Validity::GEAR_BOTTOMED | Validity::HULL | Validity::FROZEN | Validity::TUMBLING;
         let seconds = end.tick as f64 * engine::STEP_S;
         let limits = [
             ("nacelles, deg", self.nacelles_rad / DEG, 89.9, 90.1),
@@ -162,7 +164,7 @@ impl Story {
             ("off the spot, m", off_m, 0.0, 5.0),
             ("nacelles at the end, deg", end.actuators.mast_tilt_rad.mean() / DEG, -0.1, 0.5),
             ("gear at the end", end.actuators.gear_extension_norm, 0.999, 1.0),
-            ("broken", (self.outside & broken) as f64, 0.0, 0.0),
+            ("broken", (self.outside & broken).bits() as f64, 0.0, 0.0),
             ("stands still", f64::from(u8::from(self.stands_still())), 1.0, 1.0),
             ("length, s", seconds, 120.0, 300.0),
         ];
@@ -185,7 +187,7 @@ fn the_demonstration_takes_off_converts_turns_reconverts_and_lands_where_it_bega
     let story = Story::of(&xv15(), &calm(), "demo", 400);
     assert_the_papers_flight(&story, "calm");
     assert_eq!((story.lift_offs, story.touchdowns, story.end.cockpit.markers), (1, 1, 1));
-    assert_eq!(story.outside, 0, "no moment beyond the model's validity");
+    assert_eq!(story.outside, Validity::empty(), "no moment beyond the model's validity");
     assert!(story.corridor_mps > 5.0 * KNOT_MPS, "{} m/s", story.corridor_mps);
     // The reserve sink rate would load a leg with 3.1 times its share; standing, a main leg bears 0.43.
     let weight_n = story.end.balance.mass_kg * engine::GRAVITY_MPS2;
@@ -296,6 +298,37 @@ fn a_conversion_from_80_kt_keeps_inside_the_corridor_and_the_height() {
     assert!((height_m - 140.0).abs() < 20.0, "{height_m} m, wanted some 140 m");
 }
 
+/// Airspeed at which the nacelles of a conversion from 80 kt first pass 20 degrees, and how far the flight
+/// kept inside its corridor, m/s.
+fn converted(aircraft: &Aircraft) -> (f64, f64) {
+    let (mut airspeed_mps, mut inside_mps) = (None, f64::INFINITY);
+    let corridor = &aircraft.envelope.corridor;
+    let hands = pilot("convert", aircraft);
+    rehearse(aircraft, &aloft(90.0, 80.0), hands, 30 * TICKS_PER_S, |now| {
+        let (seen, tilt_rad) = (now.outputs, now.outputs.actuators.mast_tilt_rad.mean());
+        inside_mps = min(inside_mps, corridor.margin_mps(tilt_rad, seen.calibrated_airspeed_mps));
+        if tilt_rad > 20.0 * DEG {
+            airspeed_mps.get_or_insert(seen.calibrated_airspeed_mps);
+        }
+    })
+    .expect("a flight");
+    (airspeed_mps.expect("nacelles that come down"), inside_mps)
+}
+
+/// The lower limit twenty knots faster, where that leaves a corridor.
+#[test]
+fn a_pilot_keeps_to_the_corridor_of_the_aircrafts_file() {
+    let was = "value = [0.0, 0.0, 64.0, 64.0, 80.0, 90.0, 102.0, 115.0, 123.0, 129.0]";
+    let faster = "value = [0.0, 0.0, 74.0, 80.0, 100.0, 110.0, 122.0, 128.0, 129.0, 130.0]";
+    assert_eq!(aircraft::XV15.matches(was).count(), 1);
+    let text = aircraft::XV15.replace(was, faster);
+    let narrow = aircraft::aircraft("narrow.toml", &text).expect("a corridor");
+    let (wide_mps, _) = converted(&xv15());
+    let (narrow_mps, inside_mps) = converted(&narrow.with_cockpit(xv15().cockpit.clone()));
+    assert!(narrow_mps > wide_mps + 10.0 * KNOT_MPS, "{narrow_mps} m/s beside {wide_mps} m/s");
+    assert!(inside_mps > 0.0, "{inside_mps} m/s inside the corridor");
+}
+
 #[test]
 fn whatever_it_begins_in_the_land_pilot_lands() {
     let xv15 = xv15();
@@ -315,7 +348,7 @@ fn whatever_it_begins_in_the_land_pilot_lands() {
 /// A failure during a flight.
 struct Fails {
     at_s: f64,
-    failures: u64,
+    failures: Failures,
 }
 
 impl Hands for Fails {
@@ -329,19 +362,19 @@ impl Hands for Fails {
 #[test]
 fn the_demonstration_ends_on_the_ground_with_engines_that_stop() {
     let xv15 = xv15();
-    let both = failures::ENGINE_LEFT | failures::ENGINE_RIGHT;
-    let cases = [(100.0, failures::ENGINE_RIGHT), (60.0, failures::ENGINE_LEFT), (100.0, both)];
+    let both = Failures::ENGINES;
+    let cases = [(100.0, Failures::ENGINE_RIGHT), (60.0, Failures::ENGINE_LEFT), (100.0, both)];
     let some = if cfg!(debug_assertions) { &cases[..1] } else { &cases[..] };
     for &(at_s, failures) in some {
         let mut hands = pilot("demo", &xv15);
         hands.push(Box::new(Fails { at_s, failures }));
         let (state, seen) =
             rehearse(&xv15, &calm(), hands, 600 * TICKS_PER_S, |_| {}).expect("a flight");
-        let when = format!("failures {failures} at {at_s} s");
+        let when = format!("{failures} stopped at {at_s} s");
         assert!(state.tick < 600 * TICKS_PER_S, "{when}: it never ended");
         assert!(seen.height_above_ground_m < 5.0, "{when}: {} m", seen.height_above_ground_m);
         assert!(seen.velocity_mps.norm() < 0.5, "{when}: {} m/s", seen.velocity_mps.norm());
-        assert!(seen.validity & validity::HULL == 0, "{when}: a wreck");
+        assert!(!seen.validity.contains(Validity::HULL), "{when}: a wreck");
     }
 }
 

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use engine::math::sqrt;
 use engine::{STEP_S, State};
-use logs::{Ending, FlightReader, Identity, LogError, cdr};
+use logs::{Ending, Identity, LogError, OpenOptions, cdr};
 
 use crate::compare::Names;
-use crate::refly::{ReplayError, flown, read};
+use crate::refly::{OPEN, ReplayError, flown, read};
 use crate::rewrite::{NewLog, parent, rewrite};
 use crate::summary::{Gathered, Touchdown};
 
@@ -67,7 +67,7 @@ pub fn bless(
     aircraft_toml: Option<&str>,
     write: bool,
 ) -> Result<Moved, ReplayError> {
-    let mut reader = FlightReader::open_across(log, flown)?;
+    let mut reader = logs::open(log, OpenOptions { across_versions: true, ..OPEN })?;
     if !reader.intact {
         return Err(refused("its files or its first state were changed after the flight"));
     }
@@ -81,7 +81,8 @@ pub fn bless(
     }
     let initial = if reader.initial.tick == 0 {
         let aircraft = read(&setup)?.aircraft;
-        aircraft::start("scenario.toml", &setup.scenario_toml)?.state(&aircraft)?
+        let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
+        analysis::start::state_at(&start, &aircraft)?
     } else {
         reader.initial
     };

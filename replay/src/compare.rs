@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use logs::LogError;
 use logs::cdr::HEADER;
-use logs::fields::{Value, fields};
+use logs::fields::Value;
+use logs::layout::{Kind, Layout, Number};
 use logs::units::unit_of;
 use serde::Serialize;
 
@@ -17,8 +18,7 @@ pub struct Name {
     pub unit: String,
     /// Its place in [`Names::groups`].
     pub group: usize,
-    /// A number of its type.
-    kind: Value,
+    kind: Kind,
 }
 
 /// The numbers of a recorded struct, in the order of its bytes.
@@ -51,16 +51,14 @@ impl Names {
     pub fn of<T: Serialize + Default>() -> Result<Self, LogError> {
         let mut places = BTreeMap::new();
         let mut groups = Vec::new();
-        let list = fields(&T::default())?
-            .into_iter()
-            .map(|field| {
-                let group = *places.entry(group_of(&field.path)).or_insert_with_key(|group| {
-                    groups.push(group.clone());
-                    groups.len() - 1
-                });
-                Name { unit: unit_of(&field.path), path: field.path, group, kind: field.value }
-            })
-            .collect();
+        let name = |Number { path, kind }: &Number| {
+            let group = *places.entry(group_of(path)).or_insert_with_key(|group| {
+                groups.push(group.clone());
+                groups.len() - 1
+            });
+            Name { unit: unit_of(path), path: path.clone(), group, kind: *kind }
+        };
+        let list = Layout::of::<T>()?.numbers().iter().map(name).collect();
         Ok(Self { list, groups })
     }
 
@@ -70,15 +68,13 @@ impl Names {
         a: &'a [u8],
         b: &'a [u8],
     ) -> impl Iterator<Item = Difference<'a>> {
-        let words = |message: &'a [u8]| message[HEADER.len()..].chunks_exact(8);
-        self.list.iter().enumerate().zip(words(a).zip(words(b))).filter(|(_, (a, b))| a != b).map(
-            |((index, name), (a, b))| Difference {
-                name,
-                index,
-                a: value(name.kind, a),
-                b: value(name.kind, b),
-            },
-        )
+        let words = |message: &'a [u8]| message[HEADER.len()..].as_chunks::<8>().0;
+        let differing = words(a).iter().zip(words(b)).enumerate().filter(|(_, (a, b))| a != b);
+        differing.filter_map(|(index, (a, b))| {
+            let name = self.list.get(index)?;
+            let value = |word: &[u8; 8]| name.kind.value(u64::from_le_bytes(*word));
+            Some(Difference { name, index, a: value(a), b: value(b) })
+        })
     }
 }
 
@@ -97,16 +93,6 @@ impl Difference<'_> {
     /// How many representable numbers lie between.
     pub fn ulps(&self) -> u64 {
         self.a.ulps_to(self.b).unwrap_or(u64::MAX)
-    }
-}
-
-fn value(kind: Value, word: &[u8]) -> Value {
-    let mut bytes = [0; 8];
-    bytes.copy_from_slice(word);
-    match kind {
-        Value::F64(_) => Value::F64(f64::from_le_bytes(bytes)),
-        Value::U64(_) => Value::U64(u64::from_le_bytes(bytes)),
-        Value::I64(_) => Value::I64(i64::from_le_bytes(bytes)),
     }
 }
 

@@ -208,7 +208,7 @@ pub(crate) struct Cursor {
 
 impl Cursor {
     pub(crate) fn open(path: &Path) -> Result<Self, LogError> {
-        let reader = crate::refly::open(path)?;
+        let reader = logs::open(path, crate::refly::OPEN)?;
         let (tick, state) = (reader.initial.tick, cdr::encode(&reader.initial)?);
         let now = Some(At { tick, state, led: None });
         Ok(Self { reader, start_tick: tick, last: (tick, 0), disorder: None, now })
@@ -218,12 +218,10 @@ impl Cursor {
         self.now = match self.reader.next_tick() {
             Ok(Some(tick)) => {
                 self.last = (tick.record.state.tick, tick.record.digest);
+                let led = Some((tick.events.clone(), tick.inputs));
+                let now = At { tick: self.last.0, state: tick.state_message.clone(), led };
                 self.reader.timings.clear();
-                Some(At {
-                    tick: tick.record.state.tick,
-                    state: tick.state_message,
-                    led: Some((tick.events, tick.inputs)),
-                })
+                Some(now)
             }
             Ok(None) => None,
             Err(error) => {

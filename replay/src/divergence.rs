@@ -171,30 +171,18 @@ fn moves(map: &Cockpit, event: &DeviceEvent) -> String {
     let Some(device) = usize::try_from(event.device).ok().and_then(|at| map.device.get(at)) else {
         return String::new();
     };
-    let controls: Vec<String> = match EventKind::from_u64(event.kind) {
+    let controls: Vec<&str> = match EventKind::from_u64(event.kind) {
         Some(EventKind::Axis) => {
             let axes = device.axis.iter().filter(|axis| axis.code == event.code);
-            axes.map(|axis| words(&format!("{:?}", axis.control))).collect()
+            axes.map(|axis| axis.control.facts().words).collect()
         }
         Some(EventKind::Button) => {
             let buttons = device.button.iter().filter(|button| button.code == event.code);
-            buttons.map(|button| words(&format!("{:?}", button.control))).collect()
+            buttons.map(|button| button.control.facts().words).collect()
         }
         _ => Vec::new(),
     };
     controls.join(", ")
-}
-
-/// `StickAft` as people write it.
-fn words(name: &str) -> String {
-    let mut words = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !words.is_empty() {
-            words.push(' ');
-        }
-        words.extend(letter.to_lowercase());
-    }
-    words
 }
 
 /// The states after the first tick that differs, as messages.
@@ -369,13 +357,7 @@ impl fmt::Display for InputChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Device { event, moves } => {
-                let kind = match EventKind::from_u64(event.kind) {
-                    Some(EventKind::Axis) => "axis",
-                    Some(EventKind::Button) => "button",
-                    Some(EventKind::Connected) => "connected",
-                    Some(EventKind::Disconnected) => "disconnected",
-                    None => "event",
-                };
+                let kind = EventKind::from_u64(event.kind).map_or("event", |kind| kind.facts().key);
                 let DeviceEvent { device, code, value, .. } = event;
                 write!(f, "device {device} {kind} 0x{code:x} = {value}")?;
                 if !moves.is_empty() {

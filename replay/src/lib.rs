@@ -19,7 +19,7 @@ pub use diff::{
     Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
 };
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
-pub use refly::{Reflight, Reflown, ReplayError, Window, flown, messages, open};
+pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
 pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};

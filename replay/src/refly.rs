@@ -6,7 +6,7 @@ use crate::versions::Versions;
 use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 use logs::compact::Flown;
-use logs::{Ending, FlightReader, LogError, Messages, Setup, Tick, cdr};
+use logs::{Ending, FlightReader, LogError, OpenOptions, Setup, Tick, cdr};
 
 /// Why a log cannot be reflown.
 #[derive(Debug, thiserror::Error)]
@@ -19,7 +19,7 @@ pub enum ReplayError {
     Setup(#[from] aircraft::ConfigError),
     /// The flight that it was can no longer be begun.
     #[error("the flight cannot begin as its scenario says: {0}")]
-    Start(#[from] engine::trim::Failure),
+    Start(#[from] analysis::trim::Failure),
     /// Something that must not be blessed, or made a test of.
     #[error("{0}")]
     Refused(String),
@@ -57,21 +57,8 @@ impl Window {
     }
 }
 
-/// Opens a log, compacted or not.
-///
-/// # Errors
-/// When it is not a flight log, or of another version, or its files cannot be read.
-pub fn open(path: &Path) -> Result<FlightReader, LogError> {
-    FlightReader::open_any(path, flown)
-}
-
-/// Every message of a log, compacted or not.
-///
-/// # Errors
-/// When the file cannot be read.
-pub fn messages(path: &Path) -> Result<Messages, LogError> {
-    Messages::open_any(path, flown)
-}
+/// How logs are opened: compacted ones, too, and of this version of the flight model only.
+pub const OPEN: OpenOptions = OpenOptions { aircraft_of: Some(flown), across_versions: false };
 
 /// What flies the states that a compacted log leaves out.
 ///
@@ -99,7 +86,9 @@ pub struct Reflight {
     pub aircraft: Aircraft,
     /// The state after the last tick.
     pub state: State,
-    /// The same as a message.
+    /// What could be observed after it.
+    pub outputs: Outputs,
+    /// The state as a message.
     message: Vec<u8>,
     /// Every tick so far was the recorded one.
     together: bool,
@@ -107,65 +96,57 @@ pub struct Reflight {
     pub notes: Vec<String>,
 }
 
+/// How a log is opened to be reflown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReflyOptions {
+    /// The part to be reflown.
+    pub window: Window,
+    /// Whether a log of another version of the flight model is flown: what comes out is a comparison of
+    /// two versions. Where the log's files mean nothing to this one, its own take their place.
+    pub across_versions: bool,
+}
+
 /// One tick, recorded and reflown.
-pub struct Reflown {
+#[derive(Clone, Copy)]
+pub struct Reflown<'a> {
     /// As recorded.
-    pub recorded: Tick,
+    pub recorded: &'a Tick,
+    /// The reflown state after it.
+    pub state: &'a State,
     /// What can be observed after it.
-    pub outputs: Outputs,
+    pub outputs: &'a Outputs,
     /// Whether the reflown state is the recorded one, to the bit.
     pub exact: bool,
 }
 
 impl Reflight {
-    /// Opens a log.
+    /// Opens a log where the window begins, to be reflown until it ends.
     ///
     /// # Errors
-    /// When it is not a flight log, or of another version, or its files cannot be read.
-    pub fn open(path: &Path) -> Result<Self, ReplayError> {
-        Self::within(path, &Window::default())
-    }
-
-    /// Opens a log, whatever version of the flight model flew it: what comes out is a comparison of
-    /// two versions. Where the log's files mean nothing to this one, its own take their place.
-    ///
-    /// # Errors
-    /// When it is not a flight log, or its cockpit map cannot be read.
-    pub fn open_across_versions(path: &Path) -> Result<Self, ReplayError> {
-        let reader = FlightReader::open_across_versions(path)?;
+    /// When it is not a flight log, or of another version, or its files cannot be read, or the window
+    /// is not in it.
+    pub fn open(path: &Path, options: &ReflyOptions) -> Result<Self, ReplayError> {
+        let across = options.across_versions;
+        // A compacted log is flown while it is read, by this version's model or not at all.
+        let aircraft_of = OPEN.aircraft_of.filter(|_| !across);
+        let mut reader = logs::open(path, OpenOptions { aircraft_of, across_versions: across })?;
         let mut notes = Vec::new();
-        let setup = &reader.setup;
-        let aircraft = match aircraft::aircraft("aircraft.toml", &setup.aircraft_toml) {
-            Ok(aircraft) => aircraft,
-            Err(error) => {
-                notes.push(format!("flown with this version's XV-15: the log's {error}"));
-                aircraft::aircraft("xv15.toml", aircraft::XV15)?
-            }
+        let aircraft = match read(&reader.setup) {
+            Ok(flown) => flown.aircraft,
+            Err(error) if !across => return Err(error.into()),
+            Err(_) => aircraft_across(&reader.setup, &mut notes)?,
         };
-        let aircraft =
-            aircraft.with_cockpit(aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?);
-        let state = match aircraft::start("scenario.toml", &setup.scenario_toml) {
+        options.window.apply(&mut reader)?;
+        let state = match aircraft::start("scenario.toml", &reader.setup.scenario_toml) {
             Ok(start) => first_state(&reader, &aircraft, &start)?,
+            Err(error) if !across => return Err(error.into()),
             Err(error) => {
                 notes.push(format!("what the first state lacks is 0: the log's {error}"));
                 reader.initial
             }
         };
-        Ok(Self { reader, aircraft, state, message: Vec::new(), together: true, notes })
-    }
-
-    /// Opens a log where a window begins, to be reflown until it ends.
-    ///
-    /// # Errors
-    /// As for [`Reflight::open`], and when the window is not in the log.
-    pub fn within(path: &Path, window: &Window) -> Result<Self, ReplayError> {
-        let mut reader = open(path)?;
-        let aircraft = read(&reader.setup)?.aircraft;
-        let start = aircraft::start("scenario.toml", &reader.setup.scenario_toml)?;
-        window.apply(&mut reader)?;
-        let state = first_state(&reader, &aircraft, &start)?;
-        let notes = Vec::new();
-        Ok(Self { reader, aircraft, state, message: Vec::new(), together: true, notes })
+        let (outputs, message) = (Outputs::default(), Vec::new());
+        Ok(Self { reader, aircraft, state, outputs, message, together: true, notes })
     }
 
     /// Flies the next tick; `None` at the end of the log, or of the window.
@@ -174,26 +155,30 @@ impl Reflight {
     ///
     /// # Errors
     /// When the log's messages do not make a flight.
-    pub fn next_tick(&mut self) -> Result<Option<Reflown>, ReplayError> {
-        let Some(mut recorded) = self.reader.next_tick()? else { return Ok(None) };
+    pub fn next_tick(&mut self) -> Result<Option<Reflown<'_>>, ReplayError> {
+        if self.reader.next_tick()?.is_none() {
+            return Ok(None);
+        }
         // A compacted log was flown while it was read: once is enough while all is as recorded.
         let flown = self.reader.flown().filter(|_| self.together);
-        let (state, outputs) = if let Some((state, outputs)) = flown {
-            (*state, *outputs)
+        if let Some((state, outputs)) = flown {
+            (self.state, self.outputs) = (*state, *outputs);
         } else {
-            let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
-            step(&self.aircraft, &self.state, &inputs)
-        };
-        self.state = state;
+            let tick = &self.reader.tick;
+            let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
+            (self.state, self.outputs) = step(&self.aircraft, &self.state, &inputs);
+        }
         self.message.clear();
-        cdr::append(&mut self.message, &state)?;
-        self.reader.fill(&mut recorded, &state)?;
+        cdr::append(&mut self.message, &self.state)?;
+        self.reader.fill(&self.state)?;
+        let recorded = &self.reader.tick;
         let mut exact = self.message == recorded.state_message;
         if self.reader.is_compacted() {
             exact &= self.together && (recorded.chained || self.reader.is_recorded());
         }
         self.together &= exact;
-        Ok(Some(Reflown { recorded, outputs, exact }))
+        let Self { state, outputs, .. } = self;
+        Ok(Some(Reflown { recorded, state, outputs, exact }))
     }
 
     /// The state after the last tick, as a message.
@@ -203,17 +188,26 @@ impl Reflight {
 
     /// What stands between the log's version and this one; `None` when nothing does. Channels count
     /// once a message of theirs was read.
-    ///
-    /// # Errors
-    /// Never, for the structs that are recorded.
-    pub fn versions(&self) -> Result<Option<Versions>, ReplayError> {
-        Ok(Versions::of(self)?)
+    pub fn versions(&self) -> Option<Versions> {
+        Versions::of(self)
     }
 
     /// How the log ends, once it has been flown.
     pub fn ending(&self) -> Ending {
         self.reader.ending().cloned().unwrap_or(Ending::Truncated)
     }
+}
+
+/// The aircraft of another version's log; where it means nothing here, this version's own.
+fn aircraft_across(
+    setup: &Setup,
+    notes: &mut Vec<String>,
+) -> Result<Aircraft, aircraft::ConfigError> {
+    let aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml).or_else(|error| {
+        notes.push(format!("flown with this version's XV-15: the log's {error}"));
+        aircraft::aircraft("xv15.toml", aircraft::XV15)
+    })?;
+    Ok(aircraft.with_cockpit(aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?))
 }
 
 /// The state at the start: the log's, and what the log lacks as the scenario has it.
@@ -225,5 +219,5 @@ fn first_state(
     if reader.has_todays_state() {
         return Ok(reader.initial);
     }
-    Ok(reader.initial_over(&start.state(aircraft).unwrap_or_default())?)
+    Ok(reader.initial_over(&analysis::start::state_at(start, aircraft).unwrap_or_default())?)
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use engine::inputs::World;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 use logs::records::{EventRecord, Happening};
-use logs::view::{Level, Remark};
+use logs::view::Remark;
 use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Setup, Tick};
 
 use crate::refly::{ReplayError, read};
@@ -86,7 +86,7 @@ pub fn rewrite(
         new.setup,
         new.identity,
         aircraft,
-        &reader.robot_description,
+        &aircraft::urdf(aircraft),
         initial,
         new.force,
     )?;
@@ -97,7 +97,8 @@ pub fn rewrite(
         if state.tick == 0 {
             show_start(&mut writer, aircraft, &state, flown.world)?;
         }
-        while let Some(tick) = reader.next_tick()? {
+        while reader.next_tick()?.is_some() {
+            let tick = &reader.tick;
             for event in &tick.events {
                 writer.event(event)?;
                 narrator.event(&mut writer, event)?;
@@ -105,6 +106,7 @@ pub fn rewrite(
             writer.inputs(&tick.inputs)?;
             narrator.inputs(&mut writer, &tick.inputs)?;
             crew_said(reader, &mut writer, &mut touchdown_ticks)?;
+            let tick = &reader.tick;
             let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
             let (next, outputs) = step(aircraft, &state, &inputs);
             state = next;
@@ -115,7 +117,7 @@ pub fn rewrite(
             }
             writer.view(&outputs, state.plant.attitude)?;
             narrator.outputs(&mut writer, &outputs)?;
-            watch(&tick, &state, &outputs, reader);
+            watch(&reader.tick, &state, &outputs, reader);
         }
         crew_said(reader, &mut writer, &mut touchdown_ticks)?;
         match reader.ending() {
@@ -163,7 +165,7 @@ fn crew_said(
     for (event, remark) in happenings.iter().zip(&remarks) {
         if let Some(what @ (Happening::Phase | Happening::Landed)) = Happening::from_u64(event.kind)
         {
-            writer.happened(event.tick, what, event.value, Level::Info, &remark.words)?;
+            writer.happened(event.tick, what, event.value, &remark.words)?;
         }
     }
     Ok(())

@@ -4,19 +4,15 @@
 use std::fmt;
 use std::path::Path;
 
-use engine::math::{PI, max, sqrt, square};
+use engine::math::{max, sqrt, square};
+use engine::units::{DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RPM_PER_RADPS};
 use engine::{Outputs, STEP_S, State};
-use logs::FlightReader;
 use logs::view::Remark;
 
-use crate::refly::{Reflight, ReplayError, Window};
+use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
 
 /// Names of the extremes, their units, and how they are read off.
 type Reading = (&'static str, &'static str, fn(&Outputs) -> f64);
-
-const DEG: f64 = 180.0 / PI;
-const KT: f64 = 3600.0 / 1852.0;
-const FPM: f64 = 60.0 / 0.3048;
 
 const READINGS: [Reading; 11] = [
     ("height", "m", |o| o.height_above_ground_m),
@@ -27,7 +23,7 @@ const READINGS: [Reading; 11] = [
     ("pitch", "deg", |o| o.euler.pitch_rad * DEG),
     ("yaw rate", "deg/s", |o| o.angular_rate_radps.z * DEG),
     ("nacelle", "deg", |o| 90.0 - o.actuators.mast_tilt_rad.mean() * DEG),
-    ("rotor speed", "rpm", |o| o.rotor_speed_radps * 30.0 / PI),
+    ("rotor speed", "rpm", |o| o.rotor_speed_radps * RPM_PER_RADPS),
     ("power", "kW", |o| o.engines.power_w.sum() * 1e-3),
     ("flapping", "deg", |o| {
         let tilt = o.rotors.map(|r| sqrt(square(r.tilt_aft_rad) + square(r.tilt_outboard_rad)));
@@ -129,17 +125,17 @@ pub struct Summary {
 /// # Errors
 /// When it cannot be reflown.
 pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
-    let mut flight = Reflight::within(log, window)?;
+    let options = ReflyOptions { window: *window, across_versions: false };
+    let mut flight = Reflight::open(log, &options)?;
     let mut gathered = Gathered::from(&flight.state);
     let mut exact = true;
     let first_tick = flight.state.tick;
     while let Some(reflown) = flight.next_tick()? {
-        gathered.add(&flight.state, &reflown.outputs);
+        gathered.add(reflown.state, reflown.outputs);
         exact &= reflown.exact && reflown.recorded.chained;
         flight.reader.timings.clear();
     }
-    let FlightReader { remarks, .. } = &mut flight.reader;
-    let remarks = std::mem::take(remarks);
+    let remarks = std::mem::take(&mut flight.reader.remarks);
     let digest = flight.reader.digest();
     Ok(Summary { first_tick, last: flight.state, remarks, gathered, digest, exact })
 }

@@ -10,7 +10,7 @@ use logs::{Ending, Identity, LogError, Recovery, Tick, cdr};
 use crate::compare::Names;
 use crate::divergence::{Divergence, LastInput, Parted, SingleSteps, when};
 use crate::growth::WINDOW_TICKS;
-use crate::refly::{Reflight, ReplayError, Window};
+use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
 use crate::versions::Versions;
 
 /// How to verify.
@@ -156,11 +156,8 @@ pub fn verify(
     options: &Options,
     mut progress: impl FnMut(u64),
 ) -> Result<Verdict, ReplayError> {
-    let mut flight = if options.across_versions {
-        Reflight::open_across_versions(path)?
-    } else {
-        Reflight::within(path, &options.window)?
-    };
+    let Options { window, across_versions, .. } = *options;
+    let mut flight = Reflight::open(path, &ReflyOptions { window, across_versions })?;
     let mut verdict = Verdict {
         start_tick: flight.state.tick,
         ticks: 0,
@@ -185,12 +182,12 @@ pub fn verify(
             .as_ref()
             .is_none_or(|divergence| verdict.last_tick() - divergence.tick < options.growth_ticks);
         let next = if watched {
-            flight.next_tick().map(|next| next.map(|next| (next.recorded, Some(next.exact))))
+            flight.next_tick().map(|next| next.map(|next| Some(next.exact)))
         } else {
             let next = flight.reader.next_tick().map_err(ReplayError::from);
-            next.map(|next| next.map(|recorded| (recorded, None)))
+            next.map(|next| next.map(|_| None))
         };
-        let (recorded, exact) = match next {
+        let exact = match next {
             Ok(Some(next)) => next,
             Ok(None) => break,
             Err(ReplayError::Log(error @ (LogError::Order(_) | LogError::Decode(_)))) => {
@@ -199,6 +196,7 @@ pub fn verify(
             }
             Err(error) => return Err(error),
         };
+        let recorded = &flight.reader.tick;
         verdict.ticks += 1;
         verdict.digest = recorded.record.digest;
         let tick = verdict.last_tick();
@@ -224,7 +222,7 @@ pub fn verify(
         }
         if let Some(divergence) = &mut verdict.divergence {
             if exact.is_some() {
-                watch.step(&flight.aircraft, &before, &recorded, &mut divergence.single)?;
+                watch.step(&flight.aircraft, &before, recorded, &mut divergence.single)?;
             }
             watch.outputs(&flight.reader.outputs, &mut divergence.single)?;
         }
@@ -239,7 +237,7 @@ pub fn verify(
     }
     verdict.ending = flight.ending();
     verdict.windowed = options.window.until_tick.is_some_and(|until| verdict.last_tick() >= until);
-    verdict.versions = Versions::of(&flight)?.map(Box::new);
+    verdict.versions = Versions::of(&flight).map(Box::new);
     Ok(verdict)
 }
 

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use logs::Identity;
 use logs::evolution::Difference;
 use logs::records::STATE;
-use logs::{Identity, LogError};
 
 use crate::refly::Reflight;
 
@@ -23,19 +23,19 @@ pub struct Versions {
 
 impl Versions {
     /// `None` when nothing differs.
-    pub(crate) fn of(flight: &Reflight) -> Result<Option<Self>, LogError> {
+    pub(crate) fn of(flight: &Reflight) -> Option<Self> {
         let reader = &flight.reader;
-        let differences = reader.differences()?;
+        let differences = reader.differences();
         let notes = flight.notes.clone();
         if reader.same_model && differences.is_empty() && notes.is_empty() {
-            return Ok(None);
+            return None;
         }
-        Ok(Some(Self {
+        Some(Self {
             recorded_model: reader.identity.get(Identity::MODEL).into(),
             model: engine::MODEL_VERSION,
             differences,
             notes,
-        }))
+        })
     }
 
     /// Whether nothing that comes out of it is exact: another flight model, another aircraft, or

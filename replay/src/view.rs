@@ -15,7 +15,7 @@
 //!       gear                            moves up and down
 //!     thrust_{left,right}   force of each rotor
 //! /map                      the track in latitude and longitude
-//! /plots, /modes, /events   see `plots` and `layout`
+//! /plots, /modes, /validity, /events      see `plots` and `layout`
 //! ```
 //! Two flights in one recording ([`draw_against`]) are `/recorded/…` and `/reflown/…` with all of the above,
 //! and between them
@@ -35,11 +35,13 @@ mod layout;
 mod plots;
 mod scene;
 mod scenery;
+mod solid;
 mod track;
 
 use std::path::{Path, PathBuf};
 
 use engine::Outputs;
+use engine::aircraft::Params as Aircraft;
 use engine::pair::Pair;
 use rerun::RecordingStreamError;
 use rerun::external::re_log_encoding::rrd::EncodeError;
@@ -121,9 +123,9 @@ pub struct FlightView {
 
 impl FlightView {
     /// Begins the file at `path`, with everything that does not move and the viewer's layout.
-    pub fn new(path: &Path, title: &str) -> Result<Self, ViewError> {
-        let canvas = Canvas::new(path, title, Subject::Flight, &[&ALONE])?;
-        Ok(Self { canvas, track: Track::new(&ALONE) })
+    pub fn new(path: &Path, title: &str, aircraft: &Aircraft) -> Result<Self, ViewError> {
+        let canvas = Canvas::new(path, title, Subject::Flight, &[(&ALONE, aircraft)])?;
+        Ok(Self { canvas, track: Track::new(&ALONE, aircraft) })
     }
 
     /// Takes what a step gave. Call it every tick; one in five is drawn.
@@ -151,6 +153,10 @@ mod tests {
     use engine::state::Geodetic;
 
     const SECOND: u64 = 250;
+
+    fn xv15() -> engine::Aircraft {
+        aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|error| panic!("{error}"))
+    }
 
     /// Twenty seconds: up from the pad, a climbing turn, nacelles going down.
     fn flight(tick: u64, before: &Outputs) -> Outputs {
@@ -210,7 +216,8 @@ mod tests {
     }
 
     fn draw(path: &Path, ticks: u64) -> u64 {
-        let mut view = FlightView::new(path, "a climbing turn").expect("a writable folder");
+        let mut view =
+            FlightView::new(path, "a climbing turn", &xv15()).expect("a writable folder");
         let mut outputs = Outputs::default();
         outputs.balance.cg_m = Vec3::new(7.65, 0.0, 2.074);
         outputs.position_m.z = -2.2;
@@ -240,7 +247,8 @@ mod tests {
     #[test]
     fn a_long_flight_keeps_a_short_path() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut view = FlightView::new(&folder.path().join("long.rrd"), "long").expect("a file");
+        let mut view =
+            FlightView::new(&folder.path().join("long.rrd"), "long", &xv15()).expect("a file");
         let mut outputs = Outputs::default();
         for step in 0..20_000_u32 {
             outputs.position_m.x = f64::from(step) * 1.5;
@@ -253,6 +261,6 @@ mod tests {
     #[test]
     fn a_file_that_cannot_be_made_is_told() {
         let missing = Path::new("/nonexistent/folder/flight.rrd");
-        assert!(matches!(FlightView::new(missing, "x"), Err(ViewError::Write { .. })));
+        assert!(matches!(FlightView::new(missing, "x", &xv15()), Err(ViewError::Write { .. })));
     }
 }

@@ -8,10 +8,10 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_NS;
+use logs::channels::Written;
 use logs::fields::Value;
 use logs::layout::Layout;
-use logs::records::{EVENTS, HARDWARE};
-use logs::{Ending, LogError, Messages};
+use logs::{Ending, Messages};
 use replay::Window;
 use wildmatch::WildMatch;
 
@@ -49,24 +49,21 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let name = args.log.display();
     let window = args.window.of(&args.log)?;
     // What cannot be flown any more is still read by its own schema.
-    let opened = match Messages::open(&args.log) {
-        Err(LogError::Compacted) => replay::messages(&args.log),
-        opened => opened,
-    };
-    let mut messages = opened.with_context(|| name.to_string())?;
+    let mut messages = Messages::open(&args.log, replay::OPEN).with_context(|| name.to_string())?;
     if window != Window::default() {
         let (from, until) = (window.from_tick.unwrap_or(0), window.until_tick.unwrap_or(u64::MAX));
         messages.limit(from, until).with_context(|| name.to_string())?;
     }
     let mut line = String::new();
-    for message in &mut messages {
+    while let Some(message) = messages.next_message() {
         let (topic, Some(layout)) = (message.topic(), message.layout()) else { continue };
         if !choices.contains_key(topic) {
             let choice = choose(topic, layout, &channels, &fields);
             choices.insert(topic.to_string(), choice);
         }
         let Some(Some(choice)) = choices.get(topic) else { continue };
-        let now_and_then = [HARDWARE, EVENTS].contains(&topic);
+        let now_and_then =
+            message.channel().is_some_and(|channel| matches!(channel.written, Written::OnEvent));
         if !now_and_then && !(message.time_ns / STEP_NS).is_multiple_of(args.every) {
             continue;
         }

@@ -79,7 +79,7 @@ pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
         compact::expand(&args.log, &out, args.force, replay::flown, progress)
     })?;
     // Every state that was flown again has to have the digest that was kept.
-    let mut reader = replay::open(&out).with_context(|| out.display().to_string())?;
+    let mut reader = logs::open(&out, replay::OPEN).with_context(|| out.display().to_string())?;
     let mut broken = None;
     while let Some(tick) = reader.next_tick().with_context(|| out.display().to_string())? {
         if !tick.chained {

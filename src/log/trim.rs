@@ -99,7 +99,7 @@ fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> R
     let log = &args.log;
     refuse_itself(log, out)?;
     let name = || log.display().to_string();
-    let mut reader = replay::open(log).with_context(name)?;
+    let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
     if !reader.intact {
         bail!("{}: not cut: its files or its first state were changed after the flight", name());
     }

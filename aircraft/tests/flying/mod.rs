@@ -3,14 +3,13 @@
 
 use engine::aircraft::Params;
 use engine::frames::{Attitude, Euler, Vec3};
-use engine::inputs::{DeviceEvent, EventKind, World};
+use engine::inputs::{DeviceEvent, EventKind, Failures, World};
 use engine::math::{FRAC_PI_2, PI, cos, sin};
 use engine::pair::Pair;
 use engine::symmetry::Mirror;
+pub use engine::units::DEGREE_RAD as DEG;
 use engine::{Aircraft, Inputs, Outputs, State, step};
 
-pub const DEG: f64 = PI / 180.0;
-pub const RPM: f64 = PI / 30.0;
 pub const TICKS_PER_S: u64 = 250;
 
 /// The XV-15 with the built-in pilots' cockpit map.
@@ -27,7 +26,7 @@ pub fn parked(xv15: &Aircraft) -> State {
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO);
     let start = start.unwrap_or_else(|e| panic!("{e}"));
     // The mirror plane of the world is north and down.
-    engine::start::Start { heading_rad: 0.0, ..start }.state(xv15).expect("on its wheels")
+    engine::start::Start { heading_rad: 0.0, ..start }.on_wheels(xv15)
 }
 
 /// Aloft, level and heading north at `speed_mps` with the nacelles at `mast_tilt_rad`; not trimmed.
@@ -174,7 +173,7 @@ impl Chance {
             world.ground_height_m = self.between(-20.0, 20.0);
         }
         if self.one_in(500) {
-            world.failures ^= 1 << self.of(6);
+            world.failures ^= Failures::FACTS[self.of(6) as usize].flag;
         }
         world
     }

@@ -5,9 +5,9 @@ use engine::frames::Vec3;
 use engine::math::{PI, square};
 use engine::motion::Motion;
 use engine::rotors::{self, Inputs, Outputs, Params, State};
+use engine::units::DEGREE_RAD as DEG;
 
-const DEG: f64 = PI / 180.0;
-pub const DENSITY: f64 = engine::environment::DENSITY_SL_KG_PER_M3;
+pub const DENSITY: f64 = engine::isa::DENSITY_SL_KG_PER_M3;
 
 /// Ticks until nothing changes any more: twelve seconds.
 const SETTLING: usize = 3_000;
@@ -30,7 +30,7 @@ pub fn hovering(rpm: f64, collective_rad: f64) -> Inputs {
             angular_rate_radps: Vec3::zero(),
             density_kg_per_m3: DENSITY,
         },
-        sound_speed_mps: 340.294,
+        sound_speed_mps: engine::isa::SOUND_SPEED_SL_MPS,
         mast_tilt_rad: 0.0,
         mast_tilt_rate_radps: 0.0,
         rotor_speed_radps: rpm * PI / 30.0,

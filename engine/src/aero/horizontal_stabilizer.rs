@@ -23,11 +23,11 @@ use serde::{Deserialize, Serialize};
 use super::polar::ByMach;
 use super::{LocalFlow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
-use crate::math::{PI, atan2, max, min, sqrt, square, wrap_angle};
+use crate::math::{atan2, max, min, sqrt, square, wrap_angle};
 use crate::motion::Motion;
 use crate::table::{Table1, Table2, Table3};
+use crate::units::DEGREE_RAD as DEG;
 
-const DEG: f64 = PI / 180.0;
 /// Elevator angle from which it loses effect.
 const ELEVATOR_FULL_RAD: f64 = 15.0 * DEG;
 /// Sideslip beyond this changes the lift no more.

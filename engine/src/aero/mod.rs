@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn lift_is_across_and_drag_along_the_flow() {
         let force = in_body_axes(10.0, 1.0, 0.0, 0.1);
-        let along = Vec3::<Body>::new(cos(0.1), 0.0, sin(0.1));
+        let along = Vec3::<Body>::new(crate::math::cos(0.1), 0.0, crate::math::sin(0.1));
         assert!((force.dot(along) + 1.0).abs() < 1e-12);
     }
 }

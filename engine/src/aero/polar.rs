@@ -16,10 +16,10 @@
 
 use serde::Deserialize;
 
-use crate::math::{FRAC_PI_2, PI, clamp, cos, sin_cos};
+use crate::math::{FRAC_PI_2, clamp, cos, sin_cos};
 use crate::table::Table1;
+use crate::units::DEGREE_RAD as DEG;
 
-const DEG: f64 = PI / 180.0;
 /// Within this angle beyond its print a column goes over to a wider one.
 const FADE_RAD: f64 = 10.0 * DEG;
 /// Beyond this angle of attack the pylons' drag goes over from upright to level as at it.

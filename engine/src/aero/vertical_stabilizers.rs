@@ -22,12 +22,12 @@ use serde::Deserialize;
 use super::polar::{ByMach, Flap};
 use super::{LocalFlow, ahead, load_at};
 use crate::frames::{Load, Structural, Vec3};
-use crate::math::{PI, atan2, max, ramp, sin_cos, sqrt, square};
+use crate::math::{atan2, max, ramp, sin_cos, sqrt, square};
 use crate::motion::Motion;
 use crate::pair::Pair;
 use crate::table::{Table1, Table2, Table3};
+use crate::units::DEGREE_RAD as DEG;
 
-const DEG: f64 = PI / 180.0;
 /// Rudder angle from which it loses effect.
 const RUDDER_FULL_RAD: f64 = 15.0 * DEG;
 

@@ -32,10 +32,10 @@ use super::polar::Flap;
 use super::wake_footprint::{CHORDWISE, Footprint, Row, footprint_of_rows, rows};
 use super::{in_body_axes, load_at};
 use crate::frames::{Body, Load, Vec3};
-use crate::math::{PI, atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
+use crate::math::{atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
 use crate::pair::Pair;
+use crate::units::DEGREE_RAD as DEG;
 
-const DEG: f64 = PI / 180.0;
 /// Flaperons work fully up to here …
 const ATTACHED_RAD: f64 = 8.0 * DEG;
 /// … and no longer from here on.

@@ -117,3 +117,14 @@ pub fn update(params: &Params, state: &State, inputs: &Inputs) -> (State, f64) {
     };
     (next, feed_forward_rad + within(next.correction_rad))
 }
+
+/// What the governor remembers while it holds the rotor speed that it reads with this collective.
+pub fn settled(params: &Params, inputs: &Inputs, collective_rad: f64) -> State {
+    let feed_forward_rad = params.feed_forward_rad(inputs.mast_tilt_rad, inputs.from_lever_rad);
+    let correction_rad = collective_rad - feed_forward_rad;
+    State {
+        reference_radps: inputs.rotor_speed_radps,
+        integral_rad: correction_rad,
+        correction_rad,
+    }
+}

@@ -173,3 +173,15 @@ pub fn update(
     };
     (next, augmented)
 }
+
+/// What the SCAS remembers once the sticks have rested: they are their own mean, and the attitude is
+/// the held one.
+pub fn settled(sticks: &Sticks, sensed: &Sensed) -> State {
+    State {
+        mean_aft_m: sticks.aft_m,
+        mean_right_m: sticks.right_m,
+        mean_pedal_right_m: sticks.pedal_right_m,
+        held_pitch_rad: sensed.euler.pitch_rad,
+        held_roll_rad: sensed.euler.roll_rad,
+    }
+}

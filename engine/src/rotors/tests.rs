@@ -4,8 +4,8 @@ use super::*;
 use crate::math::{FRAC_PI_2, sqrt};
 use crate::table::{Table1, Table2};
 
-const DEG: f64 = PI / 180.0;
-const DENSITY: f64 = 1.225;
+use crate::units::DEGREE_RAD as DEG;
+const DENSITY: f64 = crate::isa::DENSITY_SL_KG_PER_M3;
 const OMEGA: f64 = 61.68;
 
 /// A rotor for which theory has answers: straight lift, no drag, free gimbal without precone.

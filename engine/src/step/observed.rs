@@ -4,15 +4,8 @@ use super::blocks::Blocks;
 use crate::Aircraft;
 use crate::controls::Commands;
 use crate::math::{atan2, min, sqrt, square};
-use crate::outputs::{EulerRate, Outputs, calibrated_airspeed, place, validity};
+use crate::outputs::{EulerRate, Outputs, Validity, calibrated_airspeed, place};
 use crate::state::State;
-
-/// Rotor speeds of the data, rad/s: 0.7 of 589 rpm, below the slowest of an aeroplane, to the limit of
-/// 661 rpm.
-const ROTOR_RADPS_MIN: f64 = 43.0;
-const ROTOR_RADPS_MAX: f64 = 69.3;
-/// Turning faster than this is no flight, rad/s.
-const TUMBLING_RADPS: f64 = 3.0;
 
 /// What can be observed of `next`, the state after the tick; loads are those that led to it.
 pub(super) fn outputs(
@@ -75,27 +68,31 @@ impl Blocks {
         next: &State,
         height_m: f64,
         height_above_ground_m: f64,
-    ) -> u64 {
-        let flag = |bit: u64, set: bool| if set { bit } else { 0 };
+    ) -> Validity {
+        let flag = |flag: Validity, set: bool| if set { flag } else { Validity::empty() };
         let airborne = next.plant.weight_on_wheels == 0;
-        let legs = &self.gear.legs;
+        let (legs, model) = (&self.gear.legs, &aircraft.envelope.model);
         let bottomed =
             [legs.nose, legs.main.left, legs.main.right].iter().any(|leg| leg.bottomed != 0);
-        flag(validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
-            | flag(validity::FLAPPING_STOP, self.rotors.map(|rotor| rotor.on_stop).sum() > 0)
+        flag(Validity::ROTOR_STALL, self.rotors.map(|rotor| rotor.stalled).sum() > 0)
+            | flag(Validity::FLAPPING_STOP, self.rotors.map(|rotor| rotor.on_stop).sum() > 0)
             | flag(
-                validity::VORTEX_RING,
+                Validity::VORTEX_RING,
                 airborne && self.rotors.map(|rotor| rotor.in_vortex_ring).sum() > 0,
             )
-            | flag(validity::SPEED, self.motion.airspeed_mps.norm() > 180.0)
-            | flag(validity::HEIGHT, height_m > 12e3)
-            | flag(validity::GEAR_BOTTOMED, bottomed)
-            | flag(validity::FROZEN, next.frozen != 0)
+            | flag(Validity::SPEED, self.motion.airspeed_mps.norm() > model.airspeed_mps_max)
+            | flag(Validity::HEIGHT, height_m > model.height_m_max)
+            | flag(Validity::GEAR_BOTTOMED, bottomed)
+            | flag(Validity::FROZEN, next.frozen != 0)
             | flag(
-                validity::ROTOR_SPEED,
-                !(ROTOR_RADPS_MIN..=ROTOR_RADPS_MAX).contains(&next.plant.rotor_speed_radps),
+                Validity::ROTOR_SPEED,
+                !(model.rotor_speed_radps_min..=model.rotor_speed_radps_max)
+                    .contains(&next.plant.rotor_speed_radps),
             )
-            | flag(validity::TUMBLING, next.plant.angular_rate_radps.norm() > TUMBLING_RADPS)
-            | flag(validity::HULL, height_above_ground_m <= aircraft.landing_gear.contact_height_m)
+            | flag(
+                Validity::TUMBLING,
+                next.plant.angular_rate_radps.norm() > model.angular_rate_radps_max,
+            )
+            | flag(Validity::HULL, height_above_ground_m <= aircraft.landing_gear.contact_height_m)
     }
 }

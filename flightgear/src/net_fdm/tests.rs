@@ -1,6 +1,7 @@
 use core::mem::offset_of;
 
 use engine::frames::Euler;
+use engine::math::PI;
 use engine::state::Geodetic;
 
 use super::*;
@@ -172,12 +173,12 @@ fn a_failed_engine_is_off_and_the_other_burns_the_fuel() {
 
 #[test]
 fn a_stalled_rotor_warns() {
-    let warning = |validity: u64| {
+    let warning = |validity: Validity| {
         NetFdm::from_outputs(&Outputs { validity, ..Outputs::default() }).stall_warning
     };
-    assert!(near(warning(validity::ROTOR_STALL), 1.0));
-    assert!(near(warning(validity::VORTEX_RING), 1.0));
-    assert!(near(warning(validity::SPEED | validity::GEAR_BOTTOMED), 0.0));
+    assert!(near(warning(Validity::ROTOR_STALL), 1.0));
+    assert!(near(warning(Validity::VORTEX_RING), 1.0));
+    assert!(near(warning(Validity::SPEED | Validity::GEAR_BOTTOMED), 0.0));
 }
 
 #[test]

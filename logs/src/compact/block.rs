@@ -4,22 +4,26 @@
 //! come from. Device events, worlds and timings are rows of numbers; states and what viewers draw are
 //! flown again; anything else stands as it is, as a message of its own before the block.
 
-use super::columns::{Rows, Taker, put, zigzag};
-use super::flier::VIEWED;
-use crate::LogError;
-use crate::records::{HARDWARE, INPUTS, TIMING};
+use std::ops::Range;
 
-/// Channels kept as rows.
-pub const ROWS: [&str; 3] = [HARDWARE, INPUTS, TIMING];
+use super::columns::{Rows, Taker, put, zigzag};
+use crate::LogError;
+use crate::channels::{Compacted, compacted};
+
+/// The parts of a block, each with the numbers of its channels of rows and of what is made again: those
+/// that stand in every block, and those that were added to the table of channels since.
+fn parts() -> [(Range<usize>, Range<usize>); 2] {
+    [(0..3, 0..5), (3..count(Compacted::Rows), 5..count(Compacted::Remade))]
+}
 
 /// Where a message's bytes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Op {
-    /// The next row of one of [`ROWS`].
+    /// The next row of a channel of rows, by its number.
     Row(u8),
     /// The next state, flown again; its digest is kept.
     State,
-    /// One of [`VIEWED`], made again from the outputs.
+    /// Of a channel that is made again of the outputs, by its number.
     View(u8),
     /// The state with which the block ends, as it was recorded: the last message before the block.
     Keyframe,
@@ -43,9 +47,9 @@ impl Op {
 
     fn of(byte: u8) -> Option<Self> {
         Some(match byte {
-            0..=2 => Self::Row(byte),
+            0..=7 if usize::from(byte) < count(Compacted::Rows) => Self::Row(byte),
             8 => Self::State,
-            16..=20 => Self::View(byte - 16),
+            16..=31 if usize::from(byte - 16) < count(Compacted::Remade) => Self::View(byte - 16),
             32 => Self::Keyframe,
             33 => Self::Plain,
             34 => Self::ChunkEnd,
@@ -54,25 +58,35 @@ impl Op {
     }
 }
 
+fn count(how: Compacted) -> usize {
+    compacted(how).count()
+}
+
 /// The block.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub struct Block {
     /// Tick of the state before it.
     pub first_tick: u64,
     /// Its messages in order.
     pub ops: Vec<Op>,
-    /// One for each of [`ROWS`].
-    pub rows: [Rows; ROWS.len()],
+    /// One for each channel of rows.
+    pub rows: Vec<Rows>,
     /// Digests of the states that are flown again.
     pub digests: Vec<u64>,
-    /// Ticks of what is made again, one list for each of [`VIEWED`].
-    pub view_ticks: [Vec<u64>; VIEWED.len()],
+    /// Ticks of what is made again, one list for each such channel.
+    pub view_ticks: Vec<Vec<u64>>,
 }
 
 impl Block {
     /// An empty one that follows the state of a tick.
     pub fn after(first_tick: u64) -> Self {
-        Self { first_tick, ..Self::default() }
+        Self {
+            first_tick,
+            ops: Vec::new(),
+            rows: compacted(Compacted::Rows).map(|_| Rows::default()).collect(),
+            digests: Vec::new(),
+            view_ticks: vec![Vec::new(); count(Compacted::Remade)],
+        }
     }
 
     /// As bytes.
@@ -81,17 +95,19 @@ impl Block {
         put(&mut bytes, self.first_tick);
         put(&mut bytes, self.ops.len() as u64);
         bytes.extend(self.ops.iter().map(|op| op.byte()));
-        for rows in &self.rows {
-            rows.encode(&mut bytes);
-        }
-        put(&mut bytes, self.digests.len() as u64);
-        bytes.extend(self.digests.iter().flat_map(|digest| digest.to_le_bytes()));
-        for ticks in &self.view_ticks {
-            put(&mut bytes, ticks.len() as u64);
-            let mut last = self.first_tick;
-            for &tick in ticks {
-                put(&mut bytes, zigzag(tick.wrapping_sub(last)));
-                last = tick;
+        for (rows, views) in parts() {
+            self.rows[rows.clone()].iter().for_each(|rows| rows.encode(&mut bytes));
+            if rows.start == 0 {
+                put(&mut bytes, self.digests.len() as u64);
+                bytes.extend(self.digests.iter().flat_map(|digest| digest.to_le_bytes()));
+            }
+            for ticks in &self.view_ticks[views] {
+                put(&mut bytes, ticks.len() as u64);
+                let mut last = self.first_tick;
+                for &tick in ticks {
+                    put(&mut bytes, zigzag(tick.wrapping_sub(last)));
+                    last = tick;
+                }
             }
         }
         bytes
@@ -106,18 +122,26 @@ impl Block {
             .iter()
             .map(|&byte| Op::of(byte).ok_or_else(|| unknown(byte)))
             .collect::<Result<_, _>>()?;
-        let mut block = Self { first_tick, ops, ..Self::default() };
-        for rows in &mut block.rows {
-            *rows = Rows::decode(&mut from)?;
-        }
-        let digests = from.count(8)?;
-        let (digests, _) = from.bytes(8 * digests)?.as_chunks::<8>();
-        block.digests = digests.iter().map(|digest| u64::from_le_bytes(*digest)).collect();
-        for ticks in &mut block.view_ticks {
-            let mut last = first_tick;
-            for _ in 0..from.count(1)? {
-                last = last.wrapping_add(from.difference()?);
-                ticks.push(last);
+        let mut block = Self { ops, ..Self::after(first_tick) };
+        for (rows, views) in parts() {
+            let first = rows.start == 0;
+            if !first && from.0.is_empty() {
+                break;
+            }
+            for rows in &mut block.rows[rows] {
+                *rows = Rows::decode(&mut from)?;
+            }
+            if first {
+                let digests = from.count(8)?;
+                let (digests, _) = from.bytes(8 * digests)?.as_chunks::<8>();
+                block.digests = digests.iter().map(|digest| u64::from_le_bytes(*digest)).collect();
+            }
+            for ticks in &mut block.view_ticks[views] {
+                let mut last = first_tick;
+                for _ in 0..from.count(1)? {
+                    last = last.wrapping_add(from.difference()?);
+                    ticks.push(last);
+                }
             }
         }
         if from.0.is_empty() { Ok(block) } else { Err(LogError::Decode("a block too long".into())) }

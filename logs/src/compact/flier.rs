@@ -6,18 +6,21 @@ use engine::frames::Attitude;
 use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Inputs, Outputs, State, step};
 
-use crate::records::{InputsRecord, OUTPUTS, StateRecord};
-use crate::view::{self, Shape};
+use crate::channels::{Channel, ChannelId, Written};
+use crate::records::{InputsRecord, StateRecord};
+use crate::setup::Setup;
+use crate::view::Shape;
 use crate::{LogError, cdr};
-
-/// Channels made from the outputs.
-pub const VIEWED: [&str; 5] = [OUTPUTS, view::TF, view::JOY, view::JOINT_STATES, view::FIX];
 
 /// Outputs kept: viewers' messages come later in the file than the states, but never by more ticks
 /// than this times [`OUTPUTS_TICKS`].
 const OUTPUTS_KEPT: usize = 512;
 /// Every so many ticks the outputs are kept.
 const OUTPUTS_TICKS: u64 = 5;
+
+/// Makes an aircraft, and the world in which its flight begins, of the files in the log. This crate
+/// does not read them itself.
+pub type AircraftOf = fn(&Setup) -> Result<Flown, LogError>;
 
 /// The aircraft of a log, and the world in which its flight begins.
 #[derive(Clone)]
@@ -73,25 +76,24 @@ impl Flier {
         }
     }
 
-    /// A device event of the tick under way.
-    pub fn event(&mut self, message: &[u8]) -> Result<(), LogError> {
-        self.events.push(cdr::decode(message)?);
-        Ok(())
-    }
-
-    /// The world of the tick under way.
-    pub fn inputs(&mut self, message: &[u8]) -> Result<(), LogError> {
-        self.inputs = cdr::decode(message)?;
+    /// A message that the tick under way uses.
+    pub fn takes(&mut self, channel: ChannelId, message: &[u8]) -> Result<(), LogError> {
+        match channel {
+            ChannelId::Hardware => self.events.push(cdr::decode(message)?),
+            ChannelId::Inputs => self.inputs = cdr::decode(message)?,
+            _ => {}
+        }
         Ok(())
     }
 
     /// Flies the tick.
     pub fn fly(&mut self) {
         let inputs = Inputs { events: &self.events, world: self.inputs.world };
-        let (state, outputs) = step(&self.of.aircraft, &self.state, &inputs);
+        let flown = step(&self.of.aircraft, &self.state, &inputs);
         self.events.clear();
-        self.state = state;
-        self.flown = Some((state, outputs));
+        self.state = flown.0;
+        let (_, outputs) = self.flown.insert(flown);
+        let outputs = *outputs;
         self.keep(outputs);
     }
 
@@ -104,19 +106,20 @@ impl Flier {
         }
     }
 
-    /// The state as its message.
-    pub fn state_message(&self, digest: u64) -> Result<Vec<u8>, LogError> {
-        cdr::encode(&StateRecord { digest, state: self.state })
+    /// Appends the state as its message.
+    pub fn state_message(&self, to: &mut Vec<u8>, digest: u64) -> Result<(), LogError> {
+        cdr::append(to, &StateRecord { digest, state: self.state })
     }
 
-    /// What viewers drew of a tick on a channel of [`VIEWED`]; `None` when that tick is too long ago,
-    /// or was never flown.
-    pub fn view(&self, number: u8, tick: u64) -> Result<Option<Vec<u8>>, LogError> {
+    /// Appends what viewers drew of a tick on a channel that is made of the outputs; `false` when that
+    /// tick is too long ago, or was never flown.
+    pub fn view(&self, to: &mut Vec<u8>, channel: &Channel, tick: u64) -> Result<bool, LogError> {
         let kept = self.outputs.iter().rev().find(|(outputs, _)| outputs.tick == tick);
-        let (Some((outputs, attitude)), Some(topic)) = (kept, VIEWED.get(usize::from(number)))
-        else {
-            return Ok(None);
-        };
-        view::message(topic, outputs, *attitude, &self.shape)
+        match (kept, channel.written) {
+            (Some((outputs, attitude)), Written::FromOutputs { message, .. }) => {
+                message(to, outputs, *attitude, &self.shape).map(|()| true)
+            }
+            _ => Ok(false),
+        }
     }
 }

@@ -25,7 +25,7 @@ impl Table for CsvTable {
     fn push(&mut self, row: &[Cell]) -> Result<(), LogError> {
         for cell in row {
             match cell {
-                Cell::Text(text) => self.csv.write_field(text),
+                Cell::Text(text) => self.csv.write_field(text.as_bytes()),
                 Cell::Number(number) => {
                     self.cell.clear();
                     write!(self.cell, "{number}")?;

@@ -7,26 +7,11 @@ use engine::{STEP_NS, STEP_S};
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 use super::{Cell, Column};
+use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::Kind;
-use crate::records::{HARDWARE, STATE};
 use crate::setup::{CLOSING, Identity, METADATA, Setup};
 use crate::{Ending, LogError, Message, Messages};
-
-/// A fact about a flight.
-pub(super) enum Fact {
-    Number(Value),
-    Text(String),
-}
-
-impl Fact {
-    pub fn cell(&self) -> Cell<'_> {
-        match self {
-            Self::Number(value) => Cell::Number(*value),
-            Self::Text(text) => Cell::Text(text),
-        }
-    }
-}
 
 /// What is counted on the way through a log.
 pub(super) struct Flight {
@@ -83,9 +68,9 @@ impl Flight {
     }
 
     pub fn saw(&mut self, message: &Message) -> Result<(), LogError> {
-        match message.topic() {
-            HARDWARE => self.device_events += 1,
-            STATE => {
+        match message.channel().map(|channel| channel.id) {
+            Some(ChannelId::Hardware) => self.device_events += 1,
+            Some(ChannelId::State) => {
                 let Some(layout) = message.layout() else { return Ok(()) };
                 let number = |path: &str| layout.numbers().iter().position(|n| n.path == path);
                 if let Some(place) = number("digest") {
@@ -100,9 +85,9 @@ impl Flight {
     }
 
     /// Column and fact, in order.
-    pub fn row(&self, messages: &Messages, ending: &Ending) -> Vec<(Column, Fact)> {
-        let whole = |number| Fact::Number(Value::U64(number));
-        let text = |name: &str, text: String| (Column::text(name), Fact::Text(text));
+    pub fn row(&self, messages: &Messages, ending: &Ending) -> Vec<(Column, Cell<'static>)> {
+        let whole = |number| Cell::Number(Value::U64(number));
+        let text = |name: &str, text: String| (Column::text(name), Cell::Text(text.into()));
         let flown = self.ticks - self.first_tick.unwrap_or(self.ticks).min(self.ticks);
         let ending = match ending {
             Ending::Closed => "closed".into(),
@@ -114,7 +99,7 @@ impl Flight {
             (Column::number("ticks", Kind::U64), whole(flown)),
             (
                 Column::number("duration_s", Kind::F64),
-                Fact::Number(Value::F64(flown as f64 * STEP_S)),
+                Cell::Number(Value::F64(flown as f64 * STEP_S)),
             ),
             (Column::number("device_events", Kind::U64), whole(self.device_events)),
             text("digest", format!("{:016x}", self.digest)),

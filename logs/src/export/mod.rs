@@ -13,15 +13,17 @@ mod flights;
 #[cfg(feature = "parquet")]
 mod parquet;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::{Kind, Layout};
 use crate::records::STATE;
 use crate::view;
-use crate::{Ending, LogError, Message, Messages};
+use crate::{Ending, LogError, Message, Messages, OpenOptions};
 
 use flights::Flight;
 
@@ -91,10 +93,10 @@ impl Column {
 }
 
 /// A value of a row.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Cell<'a> {
     Number(Value),
-    Text(&'a str),
+    Text(Cow<'a, str>),
 }
 
 /// A file of rows being written.
@@ -119,11 +121,12 @@ pub fn export(
     force: bool,
     mut progress: impl FnMut(u64),
 ) -> Result<Exported, LogError> {
-    let mut messages = Messages::open(log)?;
+    let mut messages = Messages::open(log, OpenOptions::default())?;
     let mut flight = Flight::new(log);
     let mut tables = Tables::new(folder, form)?;
     let mut known = None;
-    while let Some(message) = messages.next() {
+    while messages.next_message().is_some() {
+        let message = &messages.message;
         if message.topic() == STATE && known.is_none() {
             let name = flight.name(messages.facts(), messages.files(), &message.data)?;
             if !force && tables.place("flights", &name).exists() {
@@ -136,8 +139,8 @@ pub fn export(
             }
             known = Some(name);
         }
-        flight.saw(&message)?;
-        tables.add(&message)?;
+        flight.saw(message)?;
+        tables.add(message)?;
         progress(message.time_ns);
     }
     let ending = messages.ending();
@@ -147,7 +150,7 @@ pub fn export(
             _ => LogError::NotAFlight("it has no /state".into()),
         });
     };
-    tables.add_flight(&flight.row(&messages, &ending))?;
+    tables.add_flight(flight.row(&messages, &ending))?;
     let (rows, bytes) = tables.finish(&name)?;
     Ok(Exported { flight: name, rows, bytes, ending })
 }
@@ -204,7 +207,7 @@ impl Tables {
             Cell::Number(Value::U64(message.time_ns)),
             Cell::Number(Value::F64(message.time_ns as f64 * 1e-9)),
         ];
-        if message.topic() == view::LOG {
+        if message.channel().is_some_and(|channel| channel.id == ChannelId::Log) {
             let remark = view::remark(&message.data)?;
             let level = Cell::Number(Value::U64(remark.level as u64));
             let columns = [Column::number("level", Kind::U64), Column::text("words")];
@@ -213,7 +216,8 @@ impl Tables {
                 None => self.open("log", &with_time(&columns), None)?,
             };
             open.rows += 1;
-            return open.table.push(&[time[0], time[1], level, Cell::Text(&remark.words)]);
+            let [ns, s] = time;
+            return open.table.push(&[ns, s, level, Cell::Text(remark.words.into())]);
         }
         let Some(layout) = message.layout() else { return Ok(()) };
         let name = message.topic().trim_start_matches('/').replace('/', "_");
@@ -234,9 +238,8 @@ impl Tables {
     }
 
     /// The flight's row in the table of flights.
-    fn add_flight(&mut self, row: &[(Column, flights::Fact)]) -> Result<(), LogError> {
-        let columns: Vec<_> = row.iter().map(|(column, _)| column.clone()).collect();
-        let cells: Vec<_> = row.iter().map(|(_, fact)| fact.cell()).collect();
+    fn add_flight(&mut self, row: Vec<(Column, Cell)>) -> Result<(), LogError> {
+        let (columns, cells): (Vec<_>, Vec<_>) = row.into_iter().unzip();
         let open = self.open("flights", &columns, None)?;
         open.rows += 1;
         open.table.push(&cells)

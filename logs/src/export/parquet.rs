@@ -112,7 +112,7 @@ impl Table for ParquetTable {
                     values.push(number.cast_signed());
                 }
                 (Values::I64(values), Cell::Number(Value::I64(number))) => values.push(*number),
-                (Values::Text(values), Cell::Text(text)) => values.push((*text).into()),
+                (Values::Text(values), Cell::Text(text)) => values.push(text.as_ref().into()),
                 _ => return Err(LogError::Encode("a cell of another type than its column".into())),
             }
         }

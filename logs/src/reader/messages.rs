@@ -4,13 +4,16 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use mcap::records::MessageHeader;
+
 use super::Ending;
-use super::stream::{Channel, Item, Records};
+use super::stream::{FileChannel, Stream};
 use crate::LogError;
-use crate::compact::Open;
+use crate::channels::Channel;
+use crate::container::Record;
 use crate::fields::Field;
 use crate::layout::Layout;
-use crate::seal::Stamp;
+use crate::open::{OpenOptions, source};
 use crate::setup::CLOSING;
 
 /// So many ticks after a state, viewers' messages of its tick are written, too.
@@ -18,7 +21,9 @@ const PAST_TICKS: u64 = 2500;
 
 /// Every message of a log as it stands there, whatever its channel.
 pub struct Messages {
-    records: Records,
+    stream: Stream,
+    /// The message that was read last; its room is used again.
+    pub message: Message,
     facts: Vec<(String, BTreeMap<String, String>)>,
     files: Vec<(String, Vec<u8>)>,
     from_tick: u64,
@@ -28,35 +33,30 @@ pub struct Messages {
 /// One message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    pub(super) channel: Arc<Channel>,
+    channel: Arc<FileChannel>,
     /// Time since the start of the flight, ns.
     pub time_ns: u64,
     /// Its bytes.
     pub data: Vec<u8>,
     /// What it carries beside them.
-    pub(crate) stamp: Stamp,
+    pub(crate) header: MessageHeader,
 }
 
 impl Messages {
-    /// Opens a log.
+    /// Opens a log, of whatever version it is if it is not compacted.
     ///
     /// # Errors
     /// When the file cannot be read.
-    pub fn open(path: &Path) -> Result<Self, LogError> {
-        Ok(Self::of(Records::open(path, None)?))
-    }
-
-    /// Opens a log, compacted or not.
-    ///
-    /// # Errors
-    /// When the file cannot be read.
-    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
-        Ok(Self::of(Records::open(path, Some(open))?))
-    }
-
-    fn of(records: Records) -> Self {
-        let (facts, files) = (Vec::new(), Vec::new());
-        Self { records, facts, files, from_tick: 0, until_tick: u64::MAX }
+    pub fn open(path: &Path, options: OpenOptions) -> Result<Self, LogError> {
+        let header = MessageHeader { channel_id: 0, sequence: 0, log_time: 0, publish_time: 0 };
+        Ok(Self {
+            stream: Stream::over(source(path, options)?),
+            message: Message { channel: Arc::default(), time_ns: 0, data: Vec::new(), header },
+            facts: Vec::new(),
+            files: Vec::new(),
+            from_tick: 0,
+            until_tick: u64::MAX,
+        })
     }
 
     /// The metadata records that came so far: name, keys and values.
@@ -77,41 +77,48 @@ impl Messages {
     pub fn limit(&mut self, from_tick: u64, until_tick: u64) -> Result<(), LogError> {
         (self.from_tick, self.until_tick) = (from_tick, until_tick);
         // The channels are defined before the first message.
-        while self.records.channels.is_empty() && self.records.next().is_some() {}
-        if from_tick > 0 { self.records.seek(from_tick) } else { Ok(()) }
+        while !self.stream.has_channels() && self.stream.advance() {}
+        if from_tick > 0 { self.stream.seek(from_tick) } else { Ok(()) }
     }
 
-    /// How the file ends, once the last message has been read.
-    pub fn ending(&self) -> Ending {
-        match self.records.ending() {
-            // An end without the writer's last word was put there by someone else.
-            Ending::Closed if self.facts.iter().all(|(name, _)| name != CLOSING) => {
-                Ending::Truncated
-            }
-            ending => ending,
-        }
-    }
-}
-
-impl Iterator for Messages {
-    type Item = Message;
-
-    fn next(&mut self) -> Option<Message> {
-        loop {
-            match self.records.next()? {
-                Item::Message(message) => {
-                    let tick = message.time_ns / engine::STEP_NS;
+    /// Reads the next message; `None` when there is none any more.
+    pub fn next_message(&mut self) -> Option<&Message> {
+        while self.stream.advance() {
+            match &mut self.stream.record {
+                Record::Message(header, data) => {
+                    let tick = header.log_time / engine::STEP_NS;
                     // What viewers draw is written after the states, but not ten seconds after.
                     if tick > self.until_tick.saturating_add(PAST_TICKS) {
                         return None;
                     }
                     if (self.from_tick..=self.until_tick).contains(&tick) {
-                        return Some(message);
+                        let message = &mut self.message;
+                        (message.header, message.time_ns) = (*header, header.log_time);
+                        std::mem::swap(&mut message.data, data);
+                        message.channel.clone_from(&self.stream.channel);
+                        return Some(&self.message);
                     }
                 }
-                Item::Metadata(name, facts) => self.facts.push((name, facts)),
-                Item::Attachment(name, data) => self.files.push((name, data)),
+                Record::Metadata(record) => self
+                    .facts
+                    .push((std::mem::take(&mut record.name), std::mem::take(&mut record.metadata))),
+                Record::Attachment(header, data) => {
+                    self.files.push((std::mem::take(&mut header.name), std::mem::take(data)));
+                }
+                _ => {}
             }
+        }
+        None
+    }
+
+    /// How the file ends, once the last message has been read.
+    pub fn ending(&self) -> Ending {
+        match &self.stream.ending {
+            // An end without the writer's last word was put there by someone else.
+            Ending::Closed if self.facts.iter().all(|(name, _)| name != CLOSING) => {
+                Ending::Truncated
+            }
+            ending => ending.clone(),
         }
     }
 }
@@ -120,6 +127,11 @@ impl Message {
     /// Its channel's name.
     pub fn topic(&self) -> &str {
         &self.channel.topic
+    }
+
+    /// Which of a flight log's channels it is on, if it is on one of them.
+    pub fn channel(&self) -> Option<&'static Channel> {
+        self.channel.id.map(Into::into)
     }
 
     /// What its numbers are called, by the log's own schema; `None` on channels for viewers.

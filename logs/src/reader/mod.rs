@@ -1,37 +1,34 @@
 //! Reading a flight: a stream of ticks, every checksum validated before its bytes are used.
 
+mod lookup;
 mod messages;
 mod stream;
 
+pub use lookup::{closing, marker};
 pub use messages::{Message, Messages};
-use stream::{Channel, Item, Records};
-pub(crate) use stream::{Definition, RECORD_BYTES_MAX};
+use stream::Stream;
 
 use std::collections::BTreeMap;
 use std::io::Read;
-use std::path::Path;
 
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 
-use crate::compact::Open;
+use crate::channels::{Chain as InChain, Channel, ChannelId};
+use crate::container::checksums::is_whole;
+use crate::container::{LogFile, Record, RecordSource};
 use crate::evolution::{Difference, Mappings};
 use crate::records::{
-    Chain, EVENTS, EventRecord, FORMAT_VERSION, FORMATS_READ, HARDWARE, INPUTS, InputsRecord,
-    OUTPUTS, STATE, StateRecord, TIMING, TimingRecord, first_digest,
+    Chain, EventRecord, InputsRecord, STATE, StateRecord, TimingRecord, first_digest,
 };
-use crate::recover::Recovery;
-use crate::seal::is_whole;
 use crate::setup::{
-    CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, RATE_HZ, Setup,
+    CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, Setup,
 };
 use crate::view::{self, Remark};
 use crate::{LogError, cdr};
 
 /// One tick as recorded.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tick {
     /// Device events, in order.
     pub events: Vec<DeviceEvent>,
@@ -49,9 +46,10 @@ pub struct Tick {
 }
 
 /// How the file ends.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Ending {
     /// As the writer ended it.
+    #[default]
     Closed,
     /// Short of its end: the program was killed, or the file was cut.
     Truncated,
@@ -60,8 +58,11 @@ pub enum Ending {
 }
 
 /// A flight being read.
+#[derive(Default)]
 pub struct FlightReader {
-    records: Records,
+    stream: Stream,
+    /// The tick that was read last; its room is used again.
+    pub tick: Tick,
     /// Files the flight was flown with.
     pub setup: Setup,
     /// Who flew it.
@@ -81,7 +82,8 @@ pub struct FlightReader {
     mappings: Mappings,
     first: Vec<u8>,
     chain: Chain,
-    pending: Pending,
+    /// The inputs of the tick under way were read.
+    has_inputs: bool,
     /// Tick and digest of the last state read.
     last: (u64, u64),
     /// Whether every digest so far follows from the one before.
@@ -101,235 +103,167 @@ pub struct FlightReader {
     ending: Option<Ending>,
 }
 
-/// Messages of the tick under way.
-#[derive(Default)]
-struct Pending {
-    events: Vec<DeviceEvent>,
-    inputs: Option<InputsRecord>,
-}
-
 impl FlightReader {
-    /// Opens a log and reads up to the state at the start.
-    ///
-    /// # Errors
-    /// When the file cannot be read, is not MCAP, is not a flight of ours, or was flown by another
-    /// version of the flight model; [`LogError::Compacted`] for a compacted log, which
-    /// [`FlightReader::open_any`] reads as well.
-    pub fn open(path: &Path) -> Result<Self, LogError> {
-        Self::open_across_versions(path)?.of_this_model()
-    }
-
-    /// Opens a log, compacted or not, and reads up to the state at the start. `open` makes the
-    /// aircraft that flies what a compacted log leaves out.
-    ///
-    /// # Errors
-    /// As for [`FlightReader::open`].
-    pub fn open_any(path: &Path, open: Open) -> Result<Self, LogError> {
-        Self::of(Records::open(path, Some(open))?)?.of_this_model()
-    }
-
-    /// Opens a log, whatever version of the flight model flew it. Its messages become today's structs
-    /// by the names of their fields; [`FlightReader::differences`] says which ones did not.
-    ///
-    /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours; [`LogError::Compacted`]
-    /// for a compacted log, whose states are this version's or nobody's.
-    pub fn open_across_versions(path: &Path) -> Result<Self, LogError> {
-        Self::of(Records::open(path, None)?)
-    }
-
-    fn of_this_model(self) -> Result<Self, LogError> {
-        refuse_other_versions(&self.identity)?;
-        Ok(self)
-    }
-
-    /// Reads a log from anywhere, up to the state at the start.
+    /// Reads a log from anywhere, of whatever version it is, up to the state at the start.
     ///
     /// # Errors
     /// When it is not MCAP, or not a flight of ours.
     pub fn read(source: impl Read + Send + 'static) -> Result<Self, LogError> {
-        Self::of(Records::new(source))
+        Self::over(Box::new(LogFile::over(source)))
     }
 
-    /// Opens a log, compacted or not, of whatever version of the flight model. The states of a
-    /// compacted one are then not those that were flown, but where [`FlightReader::is_recorded`].
-    ///
-    /// # Errors
-    /// When the file cannot be read, is not MCAP, or is not a flight of ours.
-    pub fn open_across(path: &Path, open: Open) -> Result<Self, LogError> {
-        let mut records = Records::open(path, Some(open))?;
-        if let Some(expander) = &mut records.expander {
-            expander.across = true;
-        }
-        Self::of(records)
-    }
-
-    fn of(mut records: Records) -> Result<Self, LogError> {
-        let mut robot_description = String::new();
-        let mut setup = Setup::default();
+    /// Reads up to the state at the start.
+    pub(crate) fn over(source: Box<dyn RecordSource>) -> Result<Self, LogError> {
+        let mut reader = Self { stream: Stream::over(source), ..Self::default() };
         let mut found: Vec<&str> = Vec::new();
-        let mut identity = None;
-        let mut other_facts = Vec::new();
-        // A tool that copied the log may have put the writer's last word first.
-        let mut closing = None;
-        loop {
-            match records.next() {
-                Some(Item::Metadata(name, facts)) if name == METADATA => {
-                    let sealed =
-                        facts.get(Identity::FORMAT).is_none_or(|format| format != UNSEALED);
-                    if sealed && !is_whole(&facts) {
-                        records.oddity("the metadata that says who flew is not as written");
-                    }
-                    identity = Some(Identity(facts));
-                }
-                Some(Item::Metadata(name, facts)) if name == CLOSING => {
-                    closing = last_word(&facts);
-                }
-                Some(Item::Metadata(name, facts)) => other_facts.push((name, facts)),
-                Some(Item::Attachment(name, data)) => {
-                    let Some(known) = Setup::NAMES.iter().find(|known| **known == name) else {
-                        continue;
-                    };
-                    let text = String::from_utf8(data)
-                        .map_err(|_| LogError::NotAFlight(format!("{name} is not text")))?;
-                    if let Some(file) = setup.file_mut(known) {
-                        *file = text;
-                        found.push(known);
-                    }
-                }
-                Some(Item::Message(message)) if message.topic() == view::ROBOT_DESCRIPTION => {
-                    robot_description = view::text(&message.data)?;
-                }
-                // Nothing would look at it again.
-                Some(Item::Message(message)) if [HARDWARE, INPUTS].contains(&message.topic()) => {
-                    let topic = message.topic();
-                    return Err(LogError::Order(format!("{topic} before the first {STATE}")));
-                }
-                Some(Item::Message(message)) if message.topic() == STATE => {
-                    let identity = identity.ok_or_else(|| no_flight("no `tiltrotor` metadata"))?;
-                    if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
-                        return Err(no_flight(&format!("{missing} is not in it")));
-                    }
-                    refuse_other_formats(&identity)?;
-                    let mut mappings = Mappings::default();
-                    let (layout, data) = (message.layout(), &message.data);
-                    let first: StateRecord = mappings.decode(STATE, layout, data)?;
-                    let digest = first_digest(&setup.files(), &without_digest(data));
-                    return Ok(Self {
-                        records,
-                        setup,
-                        same_model: identity.get(Identity::MODEL) == engine::MODEL_VERSION,
-                        identity,
-                        other_facts,
-                        mappings,
-                        first: message.data,
-                        robot_description,
-                        initial: first.state,
-                        until_tick: None,
-                        intact: digest == first.digest,
-                        unbroken: digest == first.digest,
-                        chain: Chain::from(first.digest),
-                        pending: Pending::default(),
-                        last: (first.state.tick, first.digest),
-                        closing,
-                        happenings: Vec::new(),
-                        remarks: Vec::new(),
-                        timings: Vec::new(),
-                        keep_outputs: false,
-                        outputs: Vec::new(),
-                        ending: None,
-                    });
-                }
-                Some(_) => {}
-                None => {
-                    if let Some(error) = records.refused.take() {
-                        return Err(error);
-                    }
-                    return Err(match records.ending() {
-                        Ending::Damaged(why) => LogError::NotAFlight(why),
-                        _ if identity.is_some() => no_flight("it ends before the first state"),
-                        _ => no_flight("no `tiltrotor` metadata"),
-                    });
-                }
+        while reader.stream.advance() {
+            if let Record::Attachment(header, data) = &mut reader.stream.record {
+                let Some(name) = Setup::NAMES.iter().find(|name| **name == header.name) else {
+                    continue;
+                };
+                reader.setup.put(name, std::mem::take(data))?;
+                found.push(name);
+            } else if !reader.take_metadata(true) && reader.take_first(&found)? {
+                reader.unbroken = reader.intact;
+                return Ok(reader);
             }
         }
+        let Stream { refused, ending, .. } = reader.stream;
+        Err(match (refused, ending) {
+            (Some(error), _) => error,
+            (None, Ending::Damaged(why)) => LogError::NotAFlight(why),
+            _ if !reader.identity.0.is_empty() => no_flight("it ends before the first state"),
+            _ => no_flight("no `tiltrotor` metadata"),
+        })
     }
 
-    /// The next whole tick; `None` at the end of what can be read.
+    /// Takes metadata, if that is what was read.
+    fn take_metadata(&mut self, first: bool) -> bool {
+        let Record::Metadata(record) = &mut self.stream.record else { return false };
+        let (name, facts) =
+            (std::mem::take(&mut record.name), std::mem::take(&mut record.metadata));
+        match name.as_str() {
+            METADATA if first => {
+                let sealed = facts.get(Identity::FORMAT).is_none_or(|format| format != UNSEALED);
+                if sealed && !is_whole(&facts) {
+                    self.stream.oddity("the metadata that says who flew is not as written");
+                }
+                self.identity = Identity(facts);
+            }
+            // A tool that copied the log may have put it first.
+            CLOSING => self.closing = last_word(&facts),
+            _ => self.other_facts.push((name, facts)),
+        }
+        true
+    }
+
+    /// Takes a message before the first tick; `true` when it was the state at the start.
+    fn take_first(&mut self, found: &[&str]) -> Result<bool, LogError> {
+        let channel = &self.stream.channel;
+        let Record::Message(_, data) = &self.stream.record else { return Ok(false) };
+        let Some(ours) = channel.id.map(<&Channel>::from) else { return Ok(false) };
+        if ours.id == ChannelId::RobotDescription {
+            self.robot_description = view::text(data)?;
+        }
+        // Nothing would look at it again.
+        if ours.chain == InChain::Adds {
+            return Err(LogError::Order(format!("{} before the first {STATE}", ours.topic)));
+        }
+        if ours.chain != InChain::Closes {
+            return Ok(false);
+        }
+        if self.identity.0.is_empty() {
+            return Err(no_flight("no `tiltrotor` metadata"));
+        }
+        if let Some(missing) = Setup::NAMES.iter().find(|name| !found.contains(name)) {
+            return Err(no_flight(&format!("{missing} is not in it")));
+        }
+        self.identity.refuse_other_formats()?;
+        self.same_model = self.identity.get(Identity::MODEL) == engine::MODEL_VERSION;
+        let first: StateRecord = self.mappings.decode(ours, channel.foreign_layout(), data)?;
+        without_digest(data, &mut self.tick.state_message);
+        self.intact = first_digest(&self.setup.files(), &self.tick.state_message) == first.digest;
+        self.first.clone_from(data);
+        self.stand_at(&first);
+        Ok(true)
+    }
+
+    /// Goes on from a recorded state.
+    fn stand_at(&mut self, record: &StateRecord) {
+        self.initial = record.state;
+        self.chain = Chain::from(record.digest);
+        self.last = (record.state.tick, record.digest);
+    }
+
+    /// The next whole tick; `None` at the end of what can be read. It stays in [`FlightReader::tick`].
     ///
     /// # Errors
     /// When the messages do not make a flight: out of order, missing, or of another layout.
-    pub fn next_tick(&mut self) -> Result<Option<Tick>, LogError> {
+    pub fn next_tick(&mut self) -> Result<Option<&Tick>, LogError> {
         if self.until_tick.is_some_and(|until| self.last.0 >= until) {
             // As far as it was wanted, it is whole.
             self.ending = Some(Ending::Closed);
             return Ok(None);
         }
-        loop {
-            let Some(item) = self.records.next() else {
-                self.ending = Some(self.end()?);
-                return Ok(None);
-            };
-            let message = match item {
-                Item::Message(message) => message,
-                Item::Metadata(name, facts) if name == CLOSING => {
-                    self.closing = last_word(&facts);
-                    continue;
-                }
-                Item::Metadata(name, facts) => {
-                    self.other_facts.push((name, facts));
-                    continue;
-                }
-                Item::Attachment(..) => continue,
-            };
-            let (channel, data) = (message.channel, message.data);
-            match channel.topic.as_str() {
-                HARDWARE => {
-                    self.chain.add(&data);
-                    let event = self.decode(&channel, &data)?;
-                    self.pending.events.push(event);
-                }
-                INPUTS => {
-                    self.chain.add(&data);
-                    let inputs: InputsRecord = self.decode(&channel, &data)?;
-                    if self.pending.inputs.replace(inputs).is_some() {
-                        return Err(LogError::Order(format!(
-                            "two inputs before the state of tick {}",
-                            inputs.tick.saturating_add(1)
-                        )));
-                    }
-                }
-                STATE => return self.close_tick(&channel, &data).map(Some),
-                TIMING => {
-                    let timing = self.decode(&channel, &data)?;
-                    self.timings.push(timing);
-                }
-                EVENTS => {
-                    let happening = self.decode(&channel, &data)?;
-                    self.happenings.push(happening);
-                }
-                view::LOG => self.remarks.push(view::remark(&data)?),
-                // No flight depends on it: one of another form is none.
-                OUTPUTS if self.keep_outputs => {
-                    let outputs: Option<Outputs> = self.decode(&channel, &data).ok();
-                    self.outputs.extend(outputs);
-                }
-                _ => {}
+        self.tick.events.clear();
+        self.has_inputs = false;
+        while self.stream.advance() {
+            if !self.take_metadata(false) && self.take_message()? {
+                return Ok(Some(&self.tick));
             }
         }
+        self.ending = Some(self.end()?);
+        Ok(None)
+    }
+
+    /// Takes what was read into the tick under way; `true` when it was the state that ends it.
+    fn take_message(&mut self) -> Result<bool, LogError> {
+        let Record::Message(_, data) = &self.stream.record else { return Ok(false) };
+        let channel = &self.stream.channel;
+        let Some(ours) = channel.id.map(<&Channel>::from) else { return Ok(false) };
+        if ours.chain == InChain::Adds {
+            self.chain.add(data);
+        }
+        let (mappings, layout) = (&mut self.mappings, channel.foreign_layout());
+        match ours.id {
+            ChannelId::Hardware => self.tick.events.push(mappings.decode(ours, layout, data)?),
+            ChannelId::Inputs => {
+                self.tick.inputs = mappings.decode(ours, layout, data)?;
+                if std::mem::replace(&mut self.has_inputs, true) {
+                    let tick = self.tick.inputs.tick.saturating_add(1);
+                    let what = format!("two inputs before the state of tick {tick}");
+                    return Err(LogError::Order(what));
+                }
+            }
+            ChannelId::State => {
+                self.tick.record = mappings.decode(ours, layout, data)?;
+                return self.close_tick().map(|()| true);
+            }
+            ChannelId::Timing => self.timings.push(mappings.decode(ours, layout, data)?),
+            ChannelId::Events => self.happenings.push(mappings.decode(ours, layout, data)?),
+            ChannelId::Log => self.remarks.push(view::remark(data)?),
+            // No flight depends on it: one of another form is none.
+            ChannelId::Outputs if self.keep_outputs => {
+                let outputs: Option<Outputs> = mappings.decode(ours, layout, data).ok();
+                self.outputs.extend(outputs);
+            }
+            // What viewers draw.
+            _ => {}
+        }
+        Ok(false)
     }
 
     /// How the file ends, now that nothing more can be read.
     fn end(&self) -> Result<Ending, LogError> {
-        let ending = self.records.ending();
-        let begun = self.pending.inputs.is_some() || !self.pending.events.is_empty();
+        let ending = self.stream.ending.clone();
+        let begun = self.has_inputs || !self.tick.events.is_empty();
         if ending == Ending::Closed && begun {
             return Err(LogError::Order("the last tick has no state".into()));
         }
         if matches!(ending, Ending::Damaged(_)) {
             return Ok(ending);
         }
-        if let Some(oddity) = &self.records.oddity {
+        if let Some(oddity) = &self.stream.oddity {
             return Ok(Ending::Damaged(oddity.clone()));
         }
         // An end without the writer's last word was put there by someone else.
@@ -342,8 +276,8 @@ impl FlightReader {
         }
         // When the chain says that the flight is what was flown, it is something beside it. What a
         // compacted log says is guarded by a hash of its own, and what it does not say is made again.
-        let all_read = self.unbroken && !self.records.sought && !self.is_compacted();
-        if sealed && all_read && closing.messages != Some(self.records.roll_call.digest()) {
+        let all_read = self.unbroken && !self.stream.sought && !self.is_compacted();
+        if sealed && all_read && !self.stream.roll_calls.are(closing.messages) {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, what any is \
                  called, its order or time) is not as written, though every checksum is right: a tool that \
@@ -355,15 +289,13 @@ impl FlightReader {
         Ok(if self.recovered_from().is_some() { Ending::Truncated } else { Ending::Closed })
     }
 
-    fn close_tick(&mut self, channel: &Channel, data: &[u8]) -> Result<Tick, LogError> {
-        let record: StateRecord = self.decode(channel, data)?;
+    fn close_tick(&mut self) -> Result<(), LogError> {
+        let Record::Message(_, data) = &self.stream.record else { return Ok(()) };
+        let Tick { events, inputs, record, state_message, chained, foreign } = &mut self.tick;
         let tick = record.state.tick;
-        let events = std::mem::take(&mut self.pending.events);
-        let inputs = self
-            .pending
-            .inputs
-            .take()
-            .ok_or_else(|| LogError::Order(format!("tick {tick} has no inputs")))?;
+        if !self.has_inputs {
+            return Err(LogError::Order(format!("tick {tick} has no inputs")));
+        }
         if events.len() as u64 != inputs.events {
             return Err(LogError::Order(format!(
                 "tick {tick}: expected {} device events, got {}",
@@ -371,18 +303,18 @@ impl FlightReader {
                 events.len()
             )));
         }
-        let raw = without_digest(data);
-        let chained = self.chain.close(&raw) == record.digest;
-        self.unbroken &= chained;
+        without_digest(data, state_message);
+        *chained = self.chain.close(state_message) == record.digest;
+        self.unbroken &= *chained;
         // From a break on, the chain goes on from what is recorded: one break is told once.
-        self.chain = Chain::from(record.digest);
+        self.chain.set(record.digest);
         self.last = (tick, record.digest);
-        let (state_message, foreign) = if self.mappings.same_state() {
-            (raw, None)
-        } else {
-            (cdr::encode(&record.state)?, Some(data.to_vec()))
-        };
-        Ok(Tick { events, inputs, record, state_message, chained, foreign })
+        if !self.mappings.same_state() {
+            *foreign = Some(data.clone());
+            state_message.clear();
+            cdr::append(state_message, &record.state)?;
+        }
+        Ok(())
     }
 
     /// Whether the log's states have the fields that states have today.
@@ -398,12 +330,13 @@ impl FlightReader {
         self.mappings.state_over(&self.first, otherwise)
     }
 
-    /// Takes what a state of another layout lacks from `otherwise`, so that it differs from that state
+    /// Takes what the last state lacks, if it is of another layout, from `otherwise`, so that it differs from that state
     /// only where both know the field.
     ///
     /// # Errors
     /// When the message is not of the log's layout.
-    pub fn fill(&self, tick: &mut Tick, otherwise: &State) -> Result<(), LogError> {
+    pub fn fill(&mut self, otherwise: &State) -> Result<(), LogError> {
+        let tick = &mut self.tick;
         if let Some(message) = &tick.foreign {
             tick.record.state = self.mappings.state_over(message, otherwise)?;
             tick.state_message = cdr::encode(&tick.record.state)?;
@@ -411,18 +344,8 @@ impl FlightReader {
         Ok(())
     }
 
-    fn decode<T>(&mut self, channel: &Channel, message: &[u8]) -> Result<T, LogError>
-    where
-        T: Serialize + DeserializeOwned + Default,
-    {
-        self.mappings.decode(&channel.topic, channel.layout.as_deref(), message)
-    }
-
     /// Where the log's layout is not today's, channel by channel.
-    ///
-    /// # Errors
-    /// Never, for the structs that are recorded.
-    pub fn differences(&self) -> Result<Vec<(&'static str, Difference)>, LogError> {
+    pub fn differences(&self) -> Vec<(&'static str, Difference)> {
         self.mappings.differences()
     }
 
@@ -438,39 +361,30 @@ impl FlightReader {
         if tick < self.last.0 {
             return Err(LogError::Outside { tick, first, last: self.last_tick() });
         }
-        self.records.seek(tick)?;
-        self.pending = Pending::default();
-        loop {
-            match self.records.next() {
-                Some(Item::Message(message)) if message.topic() == STATE => {
-                    let Message { channel, data, .. } = message;
-                    // Of all the states that are passed by, only the tick is looked at.
-                    let found = self.mappings.tick_of(&data).unwrap_or(0);
-                    if found > tick {
-                        return Err(LogError::Order(format!("tick {tick} is not there")));
-                    }
-                    self.last.0 = found;
-                    if found == tick {
-                        let record: StateRecord = self.decode(&channel, &data)?;
-                        self.first = data;
-                        self.initial = record.state;
-                        self.chain = Chain::from(record.digest);
-                        self.last = (tick, record.digest);
-                        return Ok(());
-                    }
-                }
-                Some(Item::Metadata(name, facts)) if name == CLOSING => {
-                    self.closing = last_word(&facts);
-                }
-                Some(_) => {}
-                None => {
-                    return Err(match self.records.ending() {
-                        Ending::Damaged(why) => LogError::Order(format!("damaged: {why}")),
-                        _ => LogError::Outside { tick, first, last: self.last_tick() },
-                    });
-                }
+        self.stream.seek(tick)?;
+        while self.stream.advance() {
+            if self.take_metadata(false) || self.stream.channel.id != Some(ChannelId::State) {
+                continue;
+            }
+            let Record::Message(_, data) = &self.stream.record else { continue };
+            // Of all the states that are passed by, only the tick is looked at.
+            let found = self.mappings.tick_of(data).unwrap_or(0);
+            if found > tick {
+                return Err(LogError::Order(format!("tick {tick} is not there")));
+            }
+            self.last.0 = found;
+            if found == tick {
+                let layout = self.stream.channel.foreign_layout();
+                let record = self.mappings.decode(ChannelId::State.into(), layout, data)?;
+                self.first.clone_from(data);
+                self.stand_at(&record);
+                return Ok(());
             }
         }
+        Err(match &self.stream.ending {
+            Ending::Damaged(why) => LogError::Order(format!("damaged: {why}")),
+            _ => LogError::Outside { tick, first, last: self.last_tick() },
+        })
     }
 
     /// The last tick as the writer closed the log, or as far as it was read.
@@ -486,27 +400,27 @@ impl FlightReader {
     /// Whether the last state is as it was recorded. In a compacted log, states between keyframes are
     /// flown again.
     pub fn is_recorded(&self) -> bool {
-        self.records.expander.as_ref().is_none_or(|expander| expander.recorded)
+        self.stream.source.compacted().is_none_or(|compacted| compacted.recorded)
     }
 
     /// In a compacted log, the last tick as it was flown again while reading.
     pub fn flown(&self) -> Option<(&State, &Outputs)> {
-        self.records.expander.as_ref()?.flown()
+        self.stream.source.compacted()?.flown
     }
 
     /// Whether the log is compacted.
     pub fn is_compacted(&self) -> bool {
-        self.records.expander.is_some()
+        self.stream.source.compacted().is_some()
     }
 
     /// What no checksum found and is not as written, so far.
     pub fn oddity(&self) -> Option<&str> {
-        self.records.oddity.as_deref()
+        self.stream.oddity.as_deref()
     }
 
     /// The file that this log was recovered from, if it was.
     pub fn recovered_from(&self) -> Option<&str> {
-        self.identity.0.get(Recovery::PARENT).map(String::as_str)
+        self.identity.0.get(Identity::RECOVERED_FROM).map(String::as_str)
     }
 
     /// Lets go of what was read beside the ticks: for whoever reads on and on and does not ask for it.
@@ -523,10 +437,10 @@ impl FlightReader {
 }
 
 /// A `/state` message without its digest, which comes first.
-fn without_digest(data: &[u8]) -> Vec<u8> {
-    let mut state = cdr::HEADER.to_vec();
+fn without_digest(data: &[u8], state: &mut Vec<u8>) {
+    state.clear();
+    state.extend_from_slice(&cdr::HEADER);
     state.extend_from_slice(data.get(cdr::HEADER.len() + size_of::<u64>()..).unwrap_or_default());
-    state
 }
 
 fn no_flight(why: &str) -> LogError {
@@ -535,7 +449,7 @@ fn no_flight(why: &str) -> LogError {
 
 /// With what the writer closed the log.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LastWord {
+struct LastWord {
     /// Tick and digest of the last state.
     pub last: (u64, u64),
     /// Roll call of all messages; `None` without a seal.
@@ -545,35 +459,8 @@ pub(crate) struct LastWord {
 /// The log format that knew no seals.
 const UNSEALED: &str = "1";
 
-pub(crate) fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
+fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
     let number = |key| facts.get(key).and_then(|text| text.parse().ok());
     let last = number(CLOSING_TICK).zip(number(CLOSING_DIGEST))?;
     Some(LastWord { last, messages: number(CLOSING_MESSAGES).filter(|_| is_whole(facts)) })
-}
-
-pub(crate) fn refuse_other_versions(identity: &Identity) -> Result<(), LogError> {
-    refuse_other_formats(identity)?;
-    let theirs = identity.get(Identity::MODEL);
-    if theirs == engine::MODEL_VERSION {
-        return Ok(());
-    }
-    Err(LogError::Version {
-        what: "flight model",
-        theirs: theirs.into(),
-        ours: engine::MODEL_VERSION,
-    })
-}
-
-fn refuse_other_formats(identity: &Identity) -> Result<(), LogError> {
-    let known = [
-        (Identity::FORMAT, "log format", FORMAT_VERSION, &FORMATS_READ[..]),
-        (Identity::RATE, "number of ticks a second", RATE_HZ, &[RATE_HZ]),
-    ];
-    for (key, what, ours, read) in known {
-        let theirs = identity.get(key);
-        if !read.contains(&theirs) {
-            return Err(LogError::Version { what, theirs: theirs.into(), ours });
-        }
-    }
-    Ok(())
 }

@@ -1,6 +1,6 @@
 //! The device that exists in the cockpit map only.
 
-use engine::cockpit::{self, AxisControl, ButtonControl};
+use engine::cockpit::{self, AxisControl, ButtonControl, Travel};
 use engine::inputs::EventKind;
 use engine::math::clamp;
 
@@ -23,17 +23,22 @@ impl VirtualDevice {
         Some(Self { number: number as u64, device: map.device[number].clone(), sent: Vec::new() })
     }
 
+    /// The controls that it has an axis for, as the engine lists them.
+    pub fn axes(&self) -> impl Iterator<Item = AxisControl> {
+        let bound = |control: &AxisControl| self.device.axis.iter().any(|a| a.control == *control);
+        AxisControl::ALL.iter().copied().filter(bound)
+    }
+
     /// Moves an axis to a position (−1..1, or 0..1 for lever and brakes), if it is not there yet.
     pub fn set(&mut self, reach: &mut Reach<'_>, control: AxisControl, position_norm: f64) {
         let Some(axis) = self.device.axis.iter().find(|axis| axis.control == control) else {
             return;
         };
         let (low, high) = (axis.raw_min.unwrap_or(-32767), axis.raw_max.unwrap_or(32767));
-        let from_end = matches!(
-            control,
-            AxisControl::Collective | AxisControl::BrakeLeft | AxisControl::BrakeRight
-        );
-        let travel = if from_end { position_norm } else { 0.5 * (position_norm + 1.0) };
+        let travel = match control.facts().travel {
+            Travel::Centred => 0.5 * (position_norm + 1.0),
+            Travel::FromEnd => position_norm,
+        };
         let travel = clamp(if axis.inverted { 1.0 - travel } else { travel }, 0.0, 1.0);
         let raw = low + (travel * (high - low) as f64).round() as i64;
         match self.sent.iter_mut().find(|(code, _)| *code == axis.code) {

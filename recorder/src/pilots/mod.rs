@@ -2,16 +2,16 @@
 //!
 //! What they send are raw device events of the device that the cockpit map calls `pilot`: the path
 //! that hardware takes. They move their hands fifty times a second, and know nothing of the aircraft
-//! but what windows, dials and seat tell.
+//! but what windows, dials and seat tell, and the corridor on their knee board.
 
-pub mod corridor;
 mod device;
 mod phase;
 mod skill;
 
 use engine::cockpit::{self, AxisControl};
+use engine::envelope::Corridor;
 use engine::frames::{Ned, Vec3};
-use engine::outputs::validity;
+use engine::outputs::Validity;
 use engine::{Outputs, STEP_S};
 
 pub use device::{DEVICE, VirtualDevice};
@@ -99,6 +99,7 @@ fn cruise_for(seconds: f64) -> (&'static str, Phase) {
 /// A pilot model: a list of phases, flown one after the other.
 pub struct Pilot {
     device: VirtualDevice,
+    corridor: Corridor,
     name: &'static str,
     phases: Vec<(&'static str, Phase)>,
     at: usize,
@@ -116,11 +117,13 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// The pilot model of that name, its hands on the map's virtual device.
-    pub fn named(name: &str, map: &cockpit::Params) -> Option<Self> {
+    /// The pilot model of that name, its hands on the map's virtual device, who keeps inside the
+    /// corridor.
+    pub fn named(name: &str, map: &cockpit::Params, corridor: &Corridor) -> Option<Self> {
         let (name, _) = PILOTS.into_iter().find(|(known, _)| *known == name)?;
         Some(Self {
             device: VirtualDevice::of(map)?,
+            corridor: corridor.clone(),
             name,
             phases: plan(name, true)?,
             at: 0,
@@ -146,7 +149,7 @@ impl Pilot {
         let eyes = Eyes::look(seen);
         self.flown |= seen.height_above_ground_m > FLOWN_M;
         let landing = |phase: &(&str, Phase)| phase.1 == Phase::Land;
-        let down = eyes.on_wheels_norm > 0.7 || seen.validity & validity::HULL != 0;
+        let down = eyes.on_wheels_norm > 0.7 || seen.validity.contains(Validity::HULL);
         if !(self.flown && down) || self.phases.get(self.at).is_none_or(landing) {
             return;
         }

@@ -3,9 +3,9 @@
 use engine::cockpit::ButtonControl;
 use engine::frames::{Ned, Vec3};
 use engine::math::{FRAC_PI_2, atan2, clamp, cos, max, min, sin, sqrt, wrap_angle};
+use engine::units::KNOT_MPS;
 use engine::{Outputs, STEP_S};
 
-use super::corridor::{KNOT_MPS, fastest_mps, slowest_mps};
 use super::skill::{Aim, Eyes, HAND_S, Positions};
 use super::{Pilot, bearing};
 use crate::hands::Reach;
@@ -266,7 +266,7 @@ impl Pilot {
         order.sink_mps_max = clamp(0.12 * seen.airspeed_mps, 2.5, 6.0);
         order.gear_down |= order.airspeed_mps < GEAR_MPS_MAX;
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
-        let slowest_mps = slowest_mps(tilt_rad);
+        let slowest_mps = self.corridor.slowest_mps(tilt_rad);
         let along_mps = Eyes::look(seen).forward_mps;
         let keep_mps = if slowest_mps > 0.0 {
             slowest_mps + CORRIDOR_MPS - (order.airspeed_mps - along_mps)
@@ -355,12 +355,13 @@ impl Pilot {
             _ if rotors_off.abs() > ROTORS_OFF_MAX => 0,
             Nacelles::Forward if tilt_rad < FRAC_PI_2 - 1e-4 => {
                 let ahead_rad = min(tilt_rad + AHEAD_RAD, FRAC_PI_2);
-                let fast = order.airspeed_mps > slowest_mps(ahead_rad) + CORRIDOR_MPS;
+                let fast = order.airspeed_mps > self.corridor.slowest_mps(ahead_rad) + CORRIDOR_MPS;
                 if fast && seen.alpha_rad < 0.21 { -1 } else { 0 }
             }
             Nacelles::Aft if tilt_rad > 1e-4 => {
                 let ahead_rad = max(tilt_rad - AHEAD_RAD, 0.0);
-                if order.airspeed_mps < fastest_mps(ahead_rad) - CORRIDOR_MPS { 1 } else { 0 }
+                let slow = order.airspeed_mps < self.corridor.fastest_mps(ahead_rad) - CORRIDOR_MPS;
+                if slow { 1 } else { 0 }
             }
             Nacelles::Forward | Nacelles::Aft => 0,
         };

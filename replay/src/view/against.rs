@@ -63,8 +63,10 @@ pub fn draw_against(log: &Path, other: Other, saved: &Path) -> Result<Drawn, Dra
         Other::Reflown => Beside::Reflown(Box::new(recorded.first()?)),
     };
     let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
-    let canvas = Canvas::new(saved, &title, Subject::Comparison, &[&RECORDED, &REFLOWN])?;
-    let mut page = Page::new(canvas)?;
+    let aircraft = (&recorded.aircraft, other.aircraft(&recorded));
+    let drawn = [(&RECORDED, &**aircraft.0), (&REFLOWN, &**aircraft.1)];
+    let canvas = Canvas::new(saved, &title, Subject::Comparison, &drawn)?;
+    let mut page = Page::new(canvas, aircraft)?;
     while let Some(at) = recorded.cursor.now.take() {
         let world = world_of(&at);
         let state: State = cdr::decode(&at.state).map_err(ReplayError::from)?;
@@ -78,10 +80,7 @@ pub fn draw_against(log: &Path, other: Other, saved: &Path) -> Result<Drawn, Dra
                 Some((**reflown, world))
             }
         };
-        let aircraft_beside = match &other {
-            Beside::Log(flight) => &flight.aircraft,
-            Beside::Reflown(_) => &recorded.aircraft,
-        };
+        let aircraft_beside = other.aircraft(&recorded);
         page.add(
             (&recorded.aircraft, &state, &world),
             beside.as_ref().map(|(state, world)| (aircraft_beside, state, world)),
@@ -114,6 +113,16 @@ pub enum DrawError {
 enum Beside {
     Log(Box<LoggedFlight>),
     Reflown(Box<State>),
+}
+
+impl Beside {
+    /// What it is flown with.
+    fn aircraft<'a>(&'a self, recorded: &'a LoggedFlight) -> &'a Aircraft {
+        match self {
+            Self::Log(flight) => &flight.aircraft,
+            Self::Reflown(_) => &recorded.aircraft,
+        }
+    }
 }
 
 /// A log, with the aircraft in it.
@@ -171,7 +180,10 @@ struct Row {
 type InWorld<'a> = (&'a Aircraft, &'a State, &'a World);
 
 impl Page {
-    fn new(mut canvas: Canvas) -> Result<Self, DrawError> {
+    fn new(
+        mut canvas: Canvas,
+        (recorded, reflown): (&Aircraft, &Aircraft),
+    ) -> Result<Self, DrawError> {
         let names = Names::of::<State>().map_err(ReplayError::from)?;
         for plot in PLOTS {
             let sent = canvas.recording.log_static(
@@ -196,8 +208,8 @@ impl Page {
         canvas.keep(sent);
         Ok(Self {
             canvas,
-            recorded: Track::new(&RECORDED),
-            reflown: Track::new(&REFLOWN),
+            recorded: Track::new(&RECORDED, recorded),
+            reflown: Track::new(&REFLOWN, reflown),
             names,
             rows: Vec::with_capacity(ROWS_PER_CHUNK),
             first_difference: None,

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use engine::STEP_NS;
+use engine::aircraft::Params as Aircraft;
 use rerun::{
     RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult, TextLog,
     TimeColumn,
@@ -33,11 +34,11 @@ impl Canvas {
         path: &Path,
         title: &str,
         kind: Subject,
-        looks: &[&Look],
+        drawn: &[(&Look, &Aircraft)],
     ) -> Result<Self, ViewError> {
         let file = RrdFile::create(path)
             .map_err(|source| ViewError::Write { path: path.into(), source })?;
-        let recording = begin(&file, title, kind, looks)
+        let recording = begin(&file, title, kind, drawn)
             .map_err(|source| ViewError::Draw { path: path.into(), source: Box::new(source) })?;
         Ok(Self { recording, file, path: path.into(), kind, error: None })
     }
@@ -88,7 +89,7 @@ fn begin(
     file: &RrdFile,
     title: &str,
     kind: Subject,
-    looks: &[&Look],
+    drawn: &[(&Look, &Aircraft)],
 ) -> RecordingStreamResult<RecordingStream> {
     // Of its properties only the name is sent: rerun would add when it began.
     let recording =
@@ -97,7 +98,7 @@ fn begin(
     recording.set_log_time_enabled(false);
     recording.set_log_tick_enabled(false);
     recording.send_recording_name(title)?;
-    looks.iter().try_for_each(|look| send_still_life(&recording, look))?;
+    drawn.iter().try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
     layout::send(&recording, 1, kind)?;
     Ok(recording)
 }

@@ -7,7 +7,7 @@
 //! ├──────────────────┤                  │
 //! │ overview │ map   │                  │
 //! ├──────────────────┼──────────────────┤
-//! │ events           │ modes            │
+//! │ events           │ modes; validity  │
 //! └──────────────────┴──────────────────┘
 //! ```
 //! Two flights have the same places; each plot has the difference beside it.
@@ -189,6 +189,9 @@ impl Page {
         )?;
         let modes = self.kind.each("modes/**");
         let modes = self.view("StateTimeline", "Modes", "/", &modes, &[])?;
+        let validity = self.kind.each("validity/**");
+        let validity = self.view("StateTimeline", "Validity", "/", &validity, &[])?;
+        let modes = self.container(ContainerKind::Tabs, "Lanes", &[modes, validity], &[])?;
         let below =
             self.container(ContainerKind::Horizontal, "Story", &[events, modes], &[11.0, 10.0])?;
         let root = self.id();

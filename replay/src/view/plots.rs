@@ -1,8 +1,11 @@
 //! What is plotted, and which modes are shown: one line each.
 
+use std::sync::LazyLock;
+
 use engine::Outputs;
-use engine::outputs::validity;
+use engine::outputs::{Severity, Validity, ValidityFacts};
 use engine::pair::Pair;
+use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS};
 
 /// One line of a plot.
 pub struct Plot {
@@ -21,16 +24,42 @@ pub struct Plot {
 /// One lane of modes.
 pub struct Mode {
     /// Entity.
-    pub path: &'static str,
+    pub path: String,
     /// What it can be, and the colour of each.
-    pub values: &'static [(&'static str, u32)],
-    /// What it is.
-    pub of: fn(&Outputs) -> &'static str,
+    pub values: Vec<(&'static str, u32)>,
+    reading: Reading,
 }
 
-const KNOTS_PER_MPS: f64 = 3600.0 / 1852.0;
-const FT_PER_MIN_PER_MPS: f64 = 60.0 / 0.3048;
-const RPM_PER_RADPS: f64 = 60.0 / engine::math::TAU;
+/// How a mode is read off the outputs.
+enum Reading {
+    By(fn(&Outputs) -> &'static str),
+    Flag(&'static ValidityFacts),
+}
+
+impl Mode {
+    fn new(path: &str, values: &[(&'static str, u32)], of: fn(&Outputs) -> &'static str) -> Self {
+        Self { path: path.into(), values: values.into(), reading: Reading::By(of) }
+    }
+
+    /// The lane of a flag of validity.
+    fn of_flag(facts: &'static ValidityFacts) -> Self {
+        let set = (facts.words, severity_colour(facts.severity));
+        Self {
+            path: format!("validity/{}", facts.key),
+            values: vec![(WITHIN, QUIET), set],
+            reading: Reading::Flag(facts),
+        }
+    }
+
+    /// What it is.
+    pub fn of(&self, outputs: &Outputs) -> &'static str {
+        match self.reading {
+            Reading::By(of) => of(outputs),
+            Reading::Flag(facts) if outputs.validity.contains(facts.flag) => facts.words,
+            Reading::Flag(_) => WITHIN,
+        }
+    }
+}
 
 const LEFT: u32 = super::SIDES.left;
 const RIGHT: u32 = super::SIDES.right;
@@ -55,9 +84,9 @@ const fn broad(path: &'static str, name: &'static str, colour: u32, of: Value) -
 pub const PLOTS: &[Plot] = &[
     broad("plots/height_m/above_ground", "above ground", ORANGE, |o| o.height_above_ground_m),
     plot("plots/height_m/above_sea", "above sea", BLUE, |o| o.place.height_m),
-    broad("plots/airspeed_kt/calibrated", "calibrated", BLUE, |o| o.calibrated_airspeed_mps * KNOTS_PER_MPS),
-    plot("plots/airspeed_kt/true", "true", GREY, |o| o.airspeed_mps * KNOTS_PER_MPS),
-    plot("plots/climb_ft_per_min", "climb", ORANGE, |o| -o.velocity_mps.z * FT_PER_MIN_PER_MPS),
+    broad("plots/airspeed_kt/calibrated", "calibrated", BLUE, |o| o.calibrated_airspeed_mps * KT_PER_MPS),
+    plot("plots/airspeed_kt/true", "true", GREY, |o| o.airspeed_mps * KT_PER_MPS),
+    plot("plots/climb_ft_per_min", "climb", ORANGE, |o| -o.velocity_mps.z * FPM_PER_MPS),
     plot("plots/attitude_deg/roll", "roll, right +", BLUE, |o| o.euler.roll_rad.to_degrees()),
     plot("plots/attitude_deg/pitch", "pitch, up +", ORANGE, |o| o.euler.pitch_rad.to_degrees()),
     plot("plots/attitude_deg/heading", "heading", VIOLET, |o| o.euler.heading_rad.to_degrees().rem_euclid(360.0)),
@@ -104,48 +133,51 @@ const ACTIVE: u32 = 0x2F_7F_D0_FF;
 const CAUTION: u32 = 0xE0_9A_20_FF;
 const ALARM: u32 = 0xD0_40_38_FF;
 
-/// Every mode shown.
-pub const MODES: &[Mode] = &[
-    Mode {
-        path: "modes/nacelles",
-        values: &[("helicopter", ACTIVE), ("converting", CAUTION), ("aeroplane", 0x30_90_60_FF)],
-        of: nacelles,
-    },
-    Mode {
-        path: "modes/weight_on_wheels",
-        values: &[("on the ground", 0x8A_6A_48_FF), ("airborne", ACTIVE)],
-        of: ground,
-    },
-    Mode {
-        path: "modes/gear",
-        values: &[("up", QUIET), ("moving", CAUTION), ("down", 0x30_90_60_FF)],
-        of: gear,
-    },
-    Mode {
-        path: "modes/flaps",
-        values: &[("0", QUIET), ("20", 0x2A_5C_90_FF), ("40", ACTIVE), ("75", 0x58_A8_F0_FF)],
-        of: flaps,
-    },
-    Mode { path: "modes/scas", values: &[("off", ALARM), ("on", QUIET)], of: scas },
-    Mode {
-        path: "modes/rotor_speed",
-        values: &[("helicopter", ACTIVE), ("aeroplane 517", QUIET), ("aeroplane 458", QUIET)],
-        of: rotor_speed,
-    },
-    Mode {
-        path: "modes/model",
-        values: &[
-            ("within its data", QUIET),
-            ("rotor stall", CAUTION),
-            ("vortex ring", ALARM),
-            ("beyond its speeds", CAUTION),
-            ("beyond its heights", CAUTION),
-            ("gear bottomed", ALARM),
-            ("frozen", ALARM),
-        ],
-        of: model,
-    },
-];
+/// What a model is that is outside none of its limits.
+const WITHIN: &str = "within its data";
+
+fn severity_colour(severity: Severity) -> u32 {
+    match severity {
+        Severity::Caution => CAUTION,
+        Severity::Warning | Severity::Final => ALARM,
+    }
+}
+
+/// Every mode shown, and a lane for every flag of validity.
+pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
+    let told = Validity::FACTS.iter().map(|facts| (facts.words, severity_colour(facts.severity)));
+    let model: Vec<_> = [(WITHIN, QUIET)].into_iter().chain(told).collect();
+    let modes = [
+        Mode::new(
+            "modes/nacelles",
+            &[("helicopter", ACTIVE), ("converting", CAUTION), ("aeroplane", 0x30_90_60_FF)],
+            nacelles,
+        ),
+        Mode::new(
+            "modes/weight_on_wheels",
+            &[("on the ground", 0x8A_6A_48_FF), ("airborne", ACTIVE)],
+            ground,
+        ),
+        Mode::new(
+            "modes/gear",
+            &[("up", QUIET), ("moving", CAUTION), ("down", 0x30_90_60_FF)],
+            gear,
+        ),
+        Mode::new(
+            "modes/flaps",
+            &[("0", QUIET), ("20", 0x2A_5C_90_FF), ("40", ACTIVE), ("75", 0x58_A8_F0_FF)],
+            flaps,
+        ),
+        Mode::new("modes/scas", &[("off", ALARM), ("on", QUIET)], scas),
+        Mode::new(
+            "modes/rotor_speed",
+            &[("helicopter", ACTIVE), ("aeroplane 517", QUIET), ("aeroplane 458", QUIET)],
+            rotor_speed,
+        ),
+        Mode::new("modes/model", &model, model_validity),
+    ];
+    modes.into_iter().chain(Validity::FACTS.iter().map(Mode::of_flag)).collect()
+});
 
 /// As cockpits count: 90° as a helicopter.
 fn incidence_deg(outputs: &Outputs) -> Pair<f64> {
@@ -197,20 +229,9 @@ fn rotor_speed(outputs: &Outputs) -> &'static str {
     }
 }
 
-/// The gravest of the doubts.
-fn model(outputs: &Outputs) -> &'static str {
-    let gravest_first = [
-        (validity::FROZEN, "frozen"),
-        (validity::GEAR_BOTTOMED, "gear bottomed"),
-        (validity::VORTEX_RING, "vortex ring"),
-        (validity::ROTOR_STALL, "rotor stall"),
-        (validity::SPEED, "beyond its speeds"),
-        (validity::HEIGHT, "beyond its heights"),
-    ];
-    gravest_first
-        .into_iter()
-        .find(|&(bit, _)| outputs.validity & bit != 0)
-        .map_or("within its data", |(_, name)| name)
+/// The gravest of what it is outside of.
+fn model_validity(outputs: &Outputs) -> &'static str {
+    outputs.validity.gravest().map_or(WITHIN, |facts| facts.words)
 }
 
 #[cfg(test)]
@@ -220,19 +241,54 @@ mod tests {
 
     #[test]
     fn no_two_lines_share_a_path() {
-        let paths = PLOTS.iter().map(|plot| plot.path).chain(MODES.iter().map(|mode| mode.path));
+        let plots = PLOTS.iter().map(|plot| plot.path);
+        let paths = plots.chain(MODES.iter().map(|mode| mode.path.as_str()));
         assert_eq!(paths.clone().collect::<BTreeSet<_>>().len(), paths.count());
+    }
+
+    fn lanes(outputs: &Outputs) -> Vec<(&'static str, &'static str)> {
+        MODES.iter().map(|mode| (mode.path.as_str(), mode.of(outputs))).collect()
+    }
+
+    /// Of all 64 bits, those that the engine names: by the bits, not by the list that is shown.
+    #[test]
+    fn every_validity_bit_has_its_lane_and_changes_that_one_and_the_model_s() {
+        let within = lanes(&Outputs::default());
+        for bit in 0..64 {
+            let flag = Validity::from_bits_retain(1 << bit);
+            let outside = lanes(&Outputs { validity: flag, ..Outputs::default() });
+            let changed: Vec<&str> = within
+                .iter()
+                .zip(&outside)
+                .filter(|(before, after)| before != after)
+                .map(|(before, _)| before.0)
+                .collect();
+            if Validity::all().contains(flag) {
+                let facts = flag.gravest().expect("told");
+                assert_eq!(changed, ["modes/model", &format!("validity/{}", facts.key)]);
+                assert!(outside.contains(&("modes/model", facts.words)), "{}", facts.key);
+            } else {
+                assert!(changed.is_empty(), "bit {bit} has no name, and shows as {changed:?}");
+            }
+        }
     }
 
     #[test]
     fn every_mode_has_a_colour() {
-        let mut outputs = Outputs::default();
-        for bit in 0..6 {
-            outputs.validity = 1 << bit;
-            for mode in MODES {
-                let value = (mode.of)(&outputs);
+        let flags = (0..64).map(|bit| Validity::from_bits_retain(1 << bit));
+        for validity in flags.chain([Validity::empty(), Validity::all()]) {
+            let outputs = Outputs { validity, ..Outputs::default() };
+            for mode in MODES.iter() {
+                let value = mode.of(&outputs);
                 assert!(mode.values.iter().any(|(known, _)| *known == value), "{value}");
             }
         }
+    }
+
+    #[test]
+    fn a_wreck_is_not_within_its_data() {
+        let outputs = Outputs { validity: Validity::HULL, ..Outputs::default() };
+        assert!(lanes(&outputs).contains(&("modes/model", "hull on the ground")));
+        assert!(lanes(&outputs).contains(&("validity/hull", "hull on the ground")));
     }
 }

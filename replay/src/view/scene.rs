@@ -1,6 +1,7 @@
 //! What is in the world: what moves as columns, what stands still, and the path at the end.
 
 use engine::Outputs;
+use engine::aircraft::Params as Aircraft;
 use engine::frames::{Attitude, Body, Ned, Structural, Vec3};
 use engine::math::{cos, sin};
 use engine::pair::Pair;
@@ -11,7 +12,9 @@ use rerun::{
     ViewCoordinates,
 };
 
+use super::airframe::Mounts;
 use super::plots::{MODES, PLOTS};
+use super::solid::Solid;
 use super::track::Look;
 use super::{SIDES, airframe, scenery};
 
@@ -48,15 +51,19 @@ impl PathPoint {
 pub type Columns = rerun::SerializationResult<Vec<SerializedComponentColumn>>;
 
 /// Everything in the world that moves, with the ground under it or without.
-pub fn moving_columns(rows: &[Outputs], ground: bool) -> Vec<(&'static str, Columns)> {
-    let pose = |position: fn(&Outputs) -> [f32; 3], attitude: fn(&Outputs) -> Quaternion| {
+pub fn moving_columns(
+    rows: &[Outputs],
+    mounts: &Mounts,
+    ground: bool,
+) -> Vec<(&'static str, Columns)> {
+    let pose = |position: &dyn Fn(&Outputs) -> [f32; 3], attitude: fn(&Outputs) -> Quaternion| {
         Transform3D::new()
             .with_many_translation(rows.iter().map(position))
             .with_many_quaternion(rows.iter().map(attitude))
             .columns_of_unit_batches()
             .map(Vec::from_iter)
     };
-    let thrust = |hub: fn(&Outputs) -> Vec3<Body>, force: fn(&Outputs) -> Vec3<Body>| {
+    let thrust = |hub: &dyn Fn(&Outputs) -> Vec3<Body>, force: fn(&Outputs) -> Vec3<Body>| {
         Arrows3D::from_vectors(rows.iter().map(|row| point(force(row) * ARROW_M_PER_N)))
             .with_origins(rows.iter().map(|row| point(hub(row))))
             .columns_of_unit_batches()
@@ -68,40 +75,40 @@ pub fn moving_columns(rows: &[Outputs], ground: bool) -> Vec<(&'static str, Colu
     }));
     let track = GeoPoints::from_lat_lon(rows.iter().map(|row| degrees(&row.place)));
     let mut columns = vec![
-        ("world/chase", pose(|row| point(row.position_m), |row| turn(row.euler.heading_rad))),
-        ("world/aircraft", pose(|row| point(row.position_m), attitude)),
-        ("world/aircraft/airframe", pose(datum, |_| Quaternion::IDENTITY)),
+        ("world/chase", pose(&|row| point(row.position_m), |row| turn(row.euler.heading_rad))),
+        ("world/aircraft", pose(&|row| point(row.position_m), attitude)),
+        ("world/aircraft/airframe", pose(&datum, |_| Quaternion::IDENTITY)),
         (
             "world/aircraft/airframe/nacelle_left",
-            pose(|_| airframe::PIVOT_M.left, |row| tilt(row.actuators.mast_tilt_rad.left)),
+            pose(&|_| mounts.pivots.left, |row| tilt(row.actuators.mast_tilt_rad.left)),
         ),
         (
             "world/aircraft/airframe/nacelle_right",
-            pose(|_| airframe::PIVOT_M.right, |row| tilt(row.actuators.mast_tilt_rad.right)),
+            pose(&|_| mounts.pivots.right, |row| tilt(row.actuators.mast_tilt_rad.right)),
         ),
         (
             "world/aircraft/airframe/nacelle_left/rotor_left",
-            pose(|_| airframe::HUB_M, |row| turn(row.rotor_azimuth_rad)),
+            pose(&|_| mounts.hub(), |row| turn(row.rotor_azimuth_rad)),
         ),
         (
             "world/aircraft/airframe/nacelle_right/rotor_right",
-            pose(|_| airframe::HUB_M, |row| turn(-row.rotor_azimuth_rad)),
+            pose(&|_| mounts.hub(), |row| turn(-row.rotor_azimuth_rad)),
         ),
-        ("world/aircraft/airframe/gear", pose(gear, |_| Quaternion::IDENTITY)),
+        ("world/aircraft/airframe/gear", pose(&|row| gear(mounts, row), |_| Quaternion::IDENTITY)),
         (
             "world/aircraft/thrust_left",
-            thrust(|row| hub(row).left, |row| row.rotors.left.load.force_n),
+            thrust(&|row| hub(mounts, row).left, |row| row.rotors.left.load.force_n),
         ),
         (
             "world/aircraft/thrust_right",
-            thrust(|row| hub(row).right, |row| row.rotors.right.load.force_n),
+            thrust(&|row| hub(mounts, row).right, |row| row.rotors.right.load.force_n),
         ),
         ("world/plumb", plumb.columns_of_unit_batches().map(Vec::from_iter)),
         ("map/aircraft", track.columns_of_unit_batches().map(Vec::from_iter)),
     ];
     if ground {
-        let plane = pose(|row| under(row, scenery::PLANE_STEP_M), |_| Quaternion::IDENTITY);
-        let grid = pose(|row| under(row, scenery::GRID_STEP_M), |_| Quaternion::IDENTITY);
+        let plane = pose(&|row| under(row, scenery::PLANE_STEP_M), |_| Quaternion::IDENTITY);
+        let grid = pose(&|row| under(row, scenery::GRID_STEP_M), |_| Quaternion::IDENTITY);
         columns.extend([("world/ground", plane), ("world/grid", grid)]);
     }
     columns
@@ -134,11 +141,11 @@ fn datum(outputs: &Outputs) -> [f32; 3] {
 }
 
 /// The hubs, in body axes.
-fn hub(outputs: &Outputs) -> Pair<Vec3<Body>> {
+fn hub(mounts: &Mounts, outputs: &Outputs) -> Pair<Vec3<Body>> {
     let datum = Vec3::<Structural>::zero().from_cg(outputs.balance.cg_m);
-    airframe::PIVOT_M.zip(outputs.actuators.mast_tilt_rad).map(|([x, y, z], tilt_rad)| {
+    mounts.pivots.zip(outputs.actuators.mast_tilt_rad).map(|([x, y, z], tilt_rad)| {
         let pivot = datum + Vec3::new(f64::from(x), f64::from(y), f64::from(z));
-        pivot + Vec3::new(sin(tilt_rad), 0.0, -cos(tilt_rad)) * airframe::MAST_M
+        pivot + Vec3::new(sin(tilt_rad), 0.0, -cos(tilt_rad)) * mounts.mast_m
     })
 }
 
@@ -155,13 +162,17 @@ fn turn(angle_rad: f64) -> Quaternion {
 }
 
 /// The gear: retracted it is inside the fuselage and its pods.
-fn gear(outputs: &Outputs) -> [f32; 3] {
+fn gear(mounts: &Mounts, outputs: &Outputs) -> [f32; 3] {
     let up = 1.0 - outputs.actuators.gear_extension_norm;
-    [0.0, 0.0, -up as f32 * airframe::GEAR_TRAVEL_M]
+    [0.0, 0.0, -up as f32 * mounts.gear_travel_m]
 }
 
 /// Sends what does not move: shapes, colours, names.
-pub fn send_still_life(recording: &RecordingStream, look: &Look) -> RecordingStreamResult<()> {
+pub fn send_still_life(
+    recording: &RecordingStream,
+    look: &Look,
+    aircraft: &Aircraft,
+) -> RecordingStreamResult<()> {
     let entity = |name: &str| format!("{}{name}", look.root);
     recording.log_static(entity("world"), &ViewCoordinates::FRD())?;
     if look.ground {
@@ -170,15 +181,17 @@ pub fn send_still_life(recording: &RecordingStream, look: &Look) -> RecordingStr
         recording.log_static(entity("world/grid"), &scenery::near_lines())?;
         recording.log_static(entity("world/pad"), &scenery::pad())?;
     }
-    let tinted = |solid: airframe::Solid| solid.mesh().with_albedo_factor(look.tint);
-    recording.log_static(entity("world/aircraft/airframe"), &tinted(airframe::airframe()))?;
-    recording.log_static(entity("world/aircraft/airframe/gear"), &tinted(airframe::gear()))?;
+    let tinted = |solid: Solid| solid.mesh().with_albedo_factor(look.tint);
+    recording
+        .log_static(entity("world/aircraft/airframe"), &tinted(airframe::airframe(aircraft)))?;
+    recording
+        .log_static(entity("world/aircraft/airframe/gear"), &tinted(airframe::gear(aircraft)))?;
     for (side, colour) in [("left", SIDES.left), ("right", SIDES.right)] {
         let nacelle = entity(&format!("world/aircraft/airframe/nacelle_{side}"));
-        recording.log_static(nacelle.as_str(), &tinted(airframe::nacelle()))?;
+        recording.log_static(nacelle.as_str(), &tinted(airframe::nacelle(aircraft)))?;
         let rotor = format!("{nacelle}/rotor_{side}");
-        recording.log_static(rotor.as_str(), &tinted(airframe::blades()))?;
-        recording.log_static(format!("{rotor}/disc"), &airframe::disc(colour))?;
+        recording.log_static(rotor.as_str(), &tinted(airframe::blades(aircraft)))?;
+        recording.log_static(format!("{rotor}/disc"), &airframe::disc(aircraft, colour))?;
         recording.log_static(
             entity(&format!("world/aircraft/thrust_{side}")),
             &Arrows3D::update_fields().with_radii([0.11]).with_colors([colour]),
@@ -211,10 +224,10 @@ pub fn send_still_life(recording: &RecordingStream, look: &Look) -> RecordingStr
                 .with_widths([plot.width + look.line_width]),
         )?;
     }
-    for mode in MODES {
+    for mode in MODES.iter() {
         let (values, colours): (Vec<&str>, Vec<u32>) = mode.values.iter().copied().unzip();
         recording.log_static(
-            entity(mode.path),
+            entity(&mode.path),
             &StateConfiguration::new().with_values(values).with_colors(colours),
         )?;
     }

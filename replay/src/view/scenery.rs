@@ -2,7 +2,7 @@
 
 use rerun::{LineStrips3D, Mesh3D};
 
-use super::airframe::{Point, Solid, ring};
+use super::solid::{Point, Solid, ring};
 
 /// Between far lines; the plane moves by as much.
 pub const PLANE_STEP_M: f64 = 500.0;

@@ -1,10 +1,12 @@
 //! One flight on the canvas: what moves, gathered and written row by row.
 
 use engine::Outputs;
+use engine::aircraft::Params as Aircraft;
 use engine::frames::{Ned, Vec3};
 use rerun::{LineStrips3D, Scalars, StateChange};
 
 use super::TICKS_PER_ROW;
+use super::airframe::Mounts;
 use super::canvas::{Canvas, times};
 use super::plots::{MODES, PLOTS};
 use super::scene::{PathPoint, moving_columns, point, send_path};
@@ -74,6 +76,7 @@ pub const REFLOWN: Look = Look {
 /// Memory hardly grows with it: ten seconds of rows, and a path that is thinned.
 pub struct Track {
     look: &'static Look,
+    mounts: Mounts,
     rows: Vec<Outputs>,
     flown_to_m: Option<Vec3<Ned>>,
     modes: Vec<Option<&'static str>>,
@@ -85,9 +88,10 @@ pub struct Track {
 
 impl Track {
     /// One that has not begun.
-    pub fn new(look: &'static Look) -> Self {
+    pub fn new(look: &'static Look, aircraft: &Aircraft) -> Self {
         Self {
             look,
+            mounts: Mounts::of(aircraft),
             rows: Vec::with_capacity(ROWS_PER_CHUNK),
             flown_to_m: None,
             modes: vec![None; MODES.len()],
@@ -132,13 +136,13 @@ impl Track {
     /// Writes the modes that changed.
     fn show_modes(&mut self, canvas: &mut Canvas, outputs: &Outputs) {
         for (index, mode) in MODES.iter().enumerate() {
-            let value = (mode.of)(outputs);
+            let value = mode.of(outputs);
             if self.modes[index] == Some(value) {
                 continue;
             }
             self.modes[index] = Some(value);
             let columns = StateChange::single(value).columns_of_unit_batches().map(Vec::from_iter);
-            canvas.send(&self.entity(mode.path), &times(&[outputs.tick]), columns);
+            canvas.send(&self.entity(&mode.path), &times(&[outputs.tick]), columns);
         }
     }
 
@@ -150,7 +154,7 @@ impl Track {
         }
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
         let times = times(&ticks);
-        for (entity, columns) in moving_columns(&rows, self.look.ground) {
+        for (entity, columns) in moving_columns(&rows, &self.mounts, self.look.ground) {
             canvas.send(&self.entity(entity), &times, columns);
         }
         for plot in PLOTS {

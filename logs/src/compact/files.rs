@@ -1,0 +1,167 @@
+//! What a compacted log says beside its blocks: the files of the flight, its channels, its form.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufWriter;
+
+use mcap::records::{AttachmentHeader, Channel, Metadata};
+use mcap::{Attachment, Writer};
+
+use super::VERSION;
+use super::columns::{Taker, put};
+use crate::LogError;
+use crate::container::{Record, Schema};
+use crate::setup::Setup;
+
+/// The attachments as bytes; they are texts, and as attachments they would not be compressed. Then the
+/// channels: a tool that copies the compacted log leaves those out that have no message in it.
+pub fn encode(head: &[Record]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let files = head.iter().filter_map(|record| match record {
+        Record::Attachment(header, data) => Some((header, data)),
+        _ => None,
+    });
+    put(&mut bytes, files.clone().count() as u64);
+    for (header, data) in files {
+        put(&mut bytes, header.log_time);
+        put(&mut bytes, header.create_time);
+        for part in [header.name.as_bytes(), header.media_type.as_bytes(), data] {
+            put_sized(&mut bytes, part);
+        }
+    }
+    let is_definition = |record: &&Record| matches!(record, Record::Schema(_) | Record::Channel(_));
+    put(&mut bytes, head.iter().filter(is_definition).count() as u64);
+    for record in head {
+        match record {
+            Record::Schema(Schema { id, name, encoding, text }) => {
+                put(&mut bytes, 0);
+                put(&mut bytes, u64::from(*id));
+                for part in [name.as_bytes(), encoding.as_bytes(), text] {
+                    put_sized(&mut bytes, part);
+                }
+            }
+            Record::Channel(channel) => {
+                put(&mut bytes, 1);
+                put(&mut bytes, u64::from(channel.id));
+                put(&mut bytes, u64::from(channel.schema_id));
+                for part in [&channel.topic, &channel.message_encoding] {
+                    put_sized(&mut bytes, part.as_bytes());
+                }
+                put(&mut bytes, channel.metadata.len() as u64);
+                for part in channel.metadata.iter().flat_map(|(key, value)| [key, value]) {
+                    put_sized(&mut bytes, part.as_bytes());
+                }
+            }
+            _ => {}
+        }
+    }
+    bytes
+}
+
+/// The files that were attachments, and the definitions before the first message.
+pub fn decode(bytes: &[u8]) -> Result<Vec<Record>, LogError> {
+    let mut from = Taker(bytes);
+    let mut head = Vec::new();
+    for _ in 0..from.count(5)? {
+        let (log_time, create_time) = (from.number()?, from.number()?);
+        let (name, media_type) = (text(&mut from)?, text(&mut from)?);
+        let header = AttachmentHeader { log_time, create_time, name, media_type };
+        head.push(Record::Attachment(header, from.sized()?.to_vec()));
+    }
+    for _ in 0..from.count(1)? {
+        head.push(match from.number()? {
+            0 => {
+                let (id, name, encoding) = (id(&mut from)?, text(&mut from)?, text(&mut from)?);
+                Record::Schema(Schema { id, name, encoding, text: from.sized()?.to_vec() })
+            }
+            1 => {
+                let (id, schema_id) = (id(&mut from)?, id(&mut from)?);
+                let (topic, message_encoding) = (text(&mut from)?, text(&mut from)?);
+                let mut metadata = BTreeMap::new();
+                for _ in 0..from.count(2)? {
+                    metadata.insert(text(&mut from)?, text(&mut from)?);
+                }
+                Record::Channel(Channel { id, schema_id, topic, message_encoding, metadata })
+            }
+            _ => return Err(broken("a definition of an unknown kind")),
+        });
+    }
+    Ok(head)
+}
+
+fn put_sized(bytes: &mut Vec<u8>, part: &[u8]) {
+    put(bytes, part.len() as u64);
+    bytes.extend_from_slice(part);
+}
+
+fn text(from: &mut Taker<'_>) -> Result<String, LogError> {
+    String::from_utf8(from.sized()?.to_vec()).map_err(|_| broken("a name is no text"))
+}
+
+fn id(from: &mut Taker<'_>) -> Result<u16, LogError> {
+    u16::try_from(from.number()?).map_err(|_| broken("a channel's number is too large"))
+}
+
+/// Those of the attachments that a flight is reflown from.
+pub fn setup_of(head: &[Record]) -> Result<Setup, LogError> {
+    let mut setup = Setup::default();
+    for name in Setup::NAMES {
+        let file = head.iter().find(|file| file.name() == Some(name));
+        let Some(Record::Attachment(_, data)) = file else {
+            return Err(LogError::NotAFlight(format!("{name} is not in it")));
+        };
+        setup.put(name, data.clone())?;
+    }
+    Ok(setup)
+}
+
+/// Writes a message type or a channel.
+pub fn define(to: &mut Writer<BufWriter<File>>, definition: &Record) -> Result<(), LogError> {
+    match definition {
+        Record::Schema(Schema { id, name, encoding, text }) => {
+            to.add_schema_with_id(*id, name, encoding, text)?;
+        }
+        Record::Channel(c) => {
+            to.add_channel_with_id(c.id, c.schema_id, &c.topic, &c.message_encoding, &c.metadata)?;
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Writes a file.
+pub fn attach(
+    to: &mut Writer<BufWriter<File>>,
+    header: &AttachmentHeader,
+    data: &[u8],
+) -> Result<(), LogError> {
+    to.attach(&Attachment {
+        log_time: header.log_time,
+        create_time: header.create_time,
+        name: header.name.clone(),
+        media_type: header.media_type.clone(),
+        data: data.into(),
+    })?;
+    Ok(())
+}
+
+/// A metadata record.
+pub fn facts<const N: usize>(name: &str, facts: [(&str, String); N]) -> Metadata {
+    let metadata = facts.map(|(key, value)| (key.to_string(), value)).into();
+    Metadata { name: name.into(), metadata }
+}
+
+/// Refuses a compacted log of another form.
+pub fn refuse_other_form(head: &Metadata) -> Result<(), LogError> {
+    let theirs = head.metadata.get("version").map_or("unknown", String::as_str);
+    if theirs == VERSION {
+        return Ok(());
+    }
+    let (what, theirs) = ("compacted form", theirs.to_string());
+    Err(LogError::Version { what, theirs, ours: VERSION })
+}
+
+/// What is wrong with a compacted log that has its checksums right.
+pub fn broken(what: &str) -> LogError {
+    LogError::Decode(format!("a compacted log that does not hold together: {what}"))
+}

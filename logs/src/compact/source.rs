@@ -1,0 +1,399 @@
+//! Reading a compacted log as the log it was.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::path::Path;
+
+use mcap::records::{MessageHeader, Metadata};
+use xxhash_rust::xxh3::Xxh3Default;
+
+use super::block::{Block, Op};
+use super::files::{broken, decode, refuse_other_form, setup_of};
+use super::flier::{AircraftOf, Flier};
+use super::{HEAD, ID, TAIL, TOPIC};
+use crate::channels::{Channel, Compacted as How, compacted};
+use crate::container::checksums::add_message;
+use crate::container::{Compacted, LogFile, Record, RecordSource, Schema};
+use crate::records::{STATE, StateRecord};
+use crate::setup::{Identity, METADATA};
+use crate::writer::stamped;
+use crate::{LogError, cdr};
+
+/// A compacted log being read.
+#[derive(Default)]
+pub(crate) struct Expander {
+    file: LogFile,
+    /// The record of the file that was read last.
+    record: Record,
+    aircraft_of: Option<AircraftOf>,
+    /// Whether a log of another version of the flight model is to be read. Its states cannot be flown
+    /// again: between keyframes, the last keyframe stands in for them, with the right tick and digest.
+    across: bool,
+    /// The log's flight model, or its aircraft file, is not for us: nothing is flown again.
+    blind: bool,
+    flier: Option<Flier>,
+    /// The last recorded state's message, and the tick of the last state.
+    keyframe: Vec<u8>,
+    tick: u64,
+    /// Records that come before anything else is read.
+    ready: VecDeque<Record>,
+    /// Channels of the log that was compacted, and of this file.
+    ids: BTreeMap<String, u16>,
+    topics: BTreeMap<u16, String>,
+    /// Message types of the log.
+    schemas: BTreeSet<String>,
+    /// Messages of the chunk so far that stand as they were.
+    plain: VecDeque<Message>,
+    block: Option<Unpacked>,
+    /// Reading began in the middle: the next block is only read for its keyframe.
+    skip_block: bool,
+    sought: bool,
+    /// The files have been read.
+    begun: bool,
+    hash: Xxh3Default,
+    tail: Option<Tail>,
+    states: u64,
+    /// Whether the last state was flown again: it is not as it was recorded.
+    reflown: bool,
+}
+
+type Message = (MessageHeader, Vec<u8>);
+
+struct Tail {
+    messages: String,
+    /// Size and hash of the log that was compacted.
+    original: Option<(u64, u128)>,
+}
+
+/// A block, and how far it has been read.
+struct Unpacked {
+    block: Block,
+    next: usize,
+    row: Vec<usize>,
+    digest: usize,
+    view: Vec<usize>,
+    keyframe: Option<Message>,
+}
+
+impl Expander {
+    /// Whether a file is a compacted log.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is one of another form.
+    pub fn is_compacted(path: &Path) -> Result<bool, LogError> {
+        let mut file = LogFile::open(path)?;
+        let mut record = Record::default();
+        // Our writers put the metadata first, and that which says so before all; of other programs'
+        // files, all that comes before the first message is looked at.
+        while let Ok(true) = file.next(&mut record) {
+            match &record {
+                Record::Metadata(head) if head.name == HEAD => {
+                    return refuse_other_form(head).map(|()| true);
+                }
+                Record::Attachment(..) | Record::Message(..) => break,
+                _ => {}
+            }
+        }
+        Ok(false)
+    }
+
+    /// Reads a compacted log from its beginning.
+    pub fn new(file: LogFile, aircraft_of: AircraftOf, across: bool) -> Self {
+        Self { file, aircraft_of: Some(aircraft_of), across, ..Self::default() }
+    }
+
+    /// States so far.
+    pub fn states(&self) -> u64 {
+        self.states
+    }
+
+    /// Size of the compacted log, once it is read.
+    pub fn bytes(&self) -> u64 {
+        self.file.fingerprint().map_or(0, |fingerprint| fingerprint.bytes)
+    }
+
+    /// Size and hash of the log that was compacted.
+    pub fn original(&self) -> Option<(u64, u128)> {
+        self.tail.as_ref()?.original
+    }
+
+    /// Takes a record of the file; `true` when the log that was compacted has it, too.
+    fn take(&mut self, record: &mut Record) -> Result<bool, LogError> {
+        match record {
+            Record::ChunkEnd => {}
+            Record::Schema(Schema { id: ID, .. }) => {}
+            // The log's own definitions come with its files.
+            Record::Schema(_) => return Ok(self.begun && self.is_new(record)),
+            Record::Channel(channel) => {
+                self.topics.insert(channel.id, channel.topic.clone());
+                let own = channel.topic != TOPIC;
+                return Ok(self.begun && own && self.is_new(record));
+            }
+            Record::Metadata(head) if head.name == HEAD => {}
+            Record::Metadata(tail) if tail.name == TAIL => self.tail = Some(Tail::of(tail)),
+            Record::Metadata(facts) if facts.name == METADATA && !self.begun => {
+                let identity = Identity(facts.metadata.clone());
+                self.blind = identity.get(Identity::MODEL) != engine::MODEL_VERSION;
+                if !(self.blind && self.across) {
+                    identity.refuse_other_versions()?;
+                }
+                return Ok(true);
+            }
+            Record::Message(header, data) => {
+                let topic = self.topics.get(&header.channel_id);
+                let topic = topic.ok_or_else(|| broken("a channel is not there"))?;
+                add_message(&mut self.hash, topic, header, data);
+                if topic == TOPIC {
+                    self.unpack(data)?;
+                } else {
+                    let channel_id = self.id(topic)?;
+                    let header = MessageHeader { channel_id, ..*header };
+                    self.plain.push_back((header, std::mem::take(data)));
+                }
+            }
+            _ => return Ok(true),
+        }
+        Ok(false)
+    }
+
+    /// Whether a definition is not known yet; from now on it is.
+    fn is_new(&mut self, record: &Record) -> bool {
+        match record {
+            Record::Schema(schema) => self.schemas.insert(schema.name.clone()),
+            Record::Channel(channel) => {
+                let new = !self.ids.contains_key(&channel.topic);
+                self.ids.entry(channel.topic.clone()).or_insert(channel.id);
+                new
+            }
+            _ => true,
+        }
+    }
+
+    /// Files, or a block.
+    fn unpack(&mut self, data: &[u8]) -> Result<(), LogError> {
+        let bytes = data.get(cdr::HEADER.len() + size_of::<u32>()..).unwrap_or_default();
+        if !std::mem::replace(&mut self.begun, true) {
+            return self.unpack_files(bytes);
+        }
+        let block = Block::decode(bytes)?;
+        let keyframe = if block.ops.contains(&Op::Keyframe) { self.plain.pop_back() } else { None };
+        if std::mem::take(&mut self.skip_block) {
+            self.plain.clear();
+            let (_, data) = keyframe.ok_or_else(|| broken("a block without a keyframe"))?;
+            return self.stand_at(&data);
+        }
+        let (row, view) = (vec![0; block.rows.len()], vec![0; block.view_ticks.len()]);
+        self.block = Some(Unpacked { block, next: 0, row, digest: 0, view, keyframe });
+        Ok(())
+    }
+
+    fn unpack_files(&mut self, bytes: &[u8]) -> Result<(), LogError> {
+        let head = decode(bytes)?;
+        let setup = setup_of(&head)?;
+        if let Some(aircraft_of) = self.aircraft_of.filter(|_| !self.blind) {
+            match aircraft_of(&setup) {
+                Ok(flown) => self.flier = Some(Flier::new(flown)),
+                // An aircraft file of another time: its keyframes can still be read.
+                Err(_) if self.across => self.blind = true,
+                Err(error) => return Err(error),
+            }
+        }
+        for record in head {
+            if self.is_new(&record) {
+                self.ready.push_back(record);
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on from a recorded state.
+    fn stand_at(&mut self, data: &[u8]) -> Result<(), LogError> {
+        self.tick = tick_of(data)?;
+        if let Some(flier) = &mut self.flier {
+            flier.begin(cdr::decode::<StateRecord>(data)?.state);
+        }
+        self.keyframe.clear();
+        self.keyframe.extend_from_slice(data);
+        Ok(())
+    }
+
+    /// The next record of the block; `false` when it has no more.
+    fn next_of_block(&mut self, record: &mut Record) -> Result<bool, LogError> {
+        while let Some(at) = &mut self.block {
+            let Some(op) = at.block.ops.get(at.next).copied() else {
+                self.block = None;
+                break;
+            };
+            at.next += 1;
+            match op {
+                Op::ChunkEnd => *record = Record::ChunkEnd,
+                Op::Plain => self.plain(record)?,
+                Op::Row(number) => self.row(usize::from(number), record)?,
+                Op::State => self.state(record)?,
+                Op::Keyframe => self.end_of_block(record)?,
+                Op::View(number) => {
+                    if !self.view(usize::from(number), record)? {
+                        continue;
+                    }
+                }
+            }
+            return Ok(true);
+        }
+        Ok(false)
+    }
+
+    fn plain(&mut self, record: &mut Record) -> Result<(), LogError> {
+        let (header, data) = self.plain.pop_front().ok_or_else(|| broken("a message less"))?;
+        if Some(&header.channel_id) == self.ids.get(STATE) {
+            self.stand_at(&data)?;
+            self.states += 1;
+            self.reflown = false;
+        }
+        *record = Record::Message(header, data);
+        Ok(())
+    }
+
+    fn row(&mut self, number: usize, record: &mut Record) -> Result<(), LogError> {
+        let channel = numbered(How::Rows, number)?;
+        let id = self.id(channel.topic)?;
+        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
+        let row = at.block.rows[number].row(at.row[number]).ok_or_else(|| broken("a row less"))?;
+        at.row[number] += 1;
+        let data = record.message(stamped(id, row[0]));
+        data.extend_from_slice(&cdr::HEADER);
+        data.extend(row.iter().flat_map(|word| word.to_le_bytes()));
+        self.flier.as_mut().map_or(Ok(()), |flier| flier.takes(channel.id, data))
+    }
+
+    fn state(&mut self, record: &mut Record) -> Result<(), LogError> {
+        let id = self.id(STATE)?;
+        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
+        let digest = at.block.digests.get(at.digest).ok_or_else(|| broken("a digest less"))?;
+        let digest = *digest;
+        at.digest += 1;
+        self.states += 1;
+        self.tick = self.tick.wrapping_add(1);
+        self.reflown = true;
+        if let Some(flier) = &mut self.flier {
+            flier.fly();
+            self.tick = flier.state.tick;
+            return flier.state_message(record.message(stamped(id, self.tick)), digest);
+        }
+        let data = record.message(stamped(id, self.tick));
+        data.extend_from_slice(&self.keyframe);
+        for (place, number) in [(0, digest), (StateRecord::TICK, self.tick)] {
+            let at = cdr::HEADER.len() + 8 * place;
+            let word = data.get_mut(at..at + 8).ok_or_else(|| broken("no keyframe"))?;
+            word.copy_from_slice(&number.to_le_bytes());
+        }
+        Ok(())
+    }
+
+    fn end_of_block(&mut self, record: &mut Record) -> Result<(), LogError> {
+        let keyframe = self.block.as_mut().and_then(|at| at.keyframe.take());
+        let (header, data) = keyframe.ok_or_else(|| broken("a keyframe less"))?;
+        if let Some(flier) = &mut self.flier {
+            flier.fly();
+            // The same, or the log does not refly: then what was recorded counts.
+            flier.state = cdr::decode::<StateRecord>(&data)?.state;
+        }
+        self.states += 1;
+        self.tick = tick_of(&data)?;
+        self.reflown = false;
+        self.keyframe.clone_from(&data);
+        *record = Record::Message(header, data);
+        Ok(())
+    }
+
+    /// `false` when nothing is flown again, or reading began after that tick.
+    fn view(&mut self, number: usize, record: &mut Record) -> Result<bool, LogError> {
+        let channel = numbered(How::Remade, number)?;
+        let id = self.id(channel.topic)?;
+        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
+        let tick = at.block.view_ticks[number].get(at.view[number]).copied();
+        let tick = tick.ok_or_else(|| broken("a tick less"))?;
+        at.view[number] += 1;
+        let Some(flier) = &self.flier else { return Ok(false) };
+        if flier.view(record.message(stamped(id, tick)), channel, tick)? {
+            return Ok(true);
+        }
+        if self.sought && tick <= flier.begun_tick {
+            return Ok(false);
+        }
+        Err(broken("viewers' messages of a tick that is long past"))
+    }
+
+    fn id(&self, topic: &str) -> Result<u16, LogError> {
+        self.ids.get(topic).copied().ok_or_else(|| broken("a channel is not there"))
+    }
+
+    /// What the writer of the compacted log said at its end.
+    fn close(&self) -> Result<(), LogError> {
+        let Some(tail) = &self.tail else { return Err(LogError::Truncated) };
+        if !self.plain.is_empty() {
+            return Err(broken("a block less"));
+        }
+        if !self.sought && tail.messages != format!("{:016x}", self.hash.digest()) {
+            return Err(broken("its messages are not those that were written"));
+        }
+        Ok(())
+    }
+}
+
+impl RecordSource for Expander {
+    fn next(&mut self, record: &mut Record) -> Result<bool, LogError> {
+        loop {
+            if let Some(ready) = self.ready.pop_front() {
+                *record = ready;
+                return Ok(true);
+            }
+            if self.next_of_block(record)? {
+                return Ok(true);
+            }
+            let mut of_file = std::mem::take(&mut self.record);
+            if !self.file.next(&mut of_file)? {
+                return self.close().map(|()| false);
+            }
+            if self.take(&mut of_file)? {
+                *record = of_file;
+                return Ok(true);
+            }
+            self.record = of_file;
+        }
+    }
+
+    fn seek(&mut self, tick: u64) -> Result<(), LogError> {
+        // A block begins where the one before ends, with its keyframe.
+        if self.file.jump_before(tick, 1)? {
+            self.block = None;
+            self.plain.clear();
+            self.ready.clear();
+            (self.skip_block, self.sought) = (true, true);
+        }
+        Ok(())
+    }
+
+    fn compacted(&self) -> Option<Compacted<'_>> {
+        let flown = self.flier.as_ref().and_then(|flier| flier.flown.as_ref());
+        let flown = flown.map(|(state, outputs)| (state, outputs));
+        Some(Compacted { recorded: !self.reflown, flown })
+    }
+}
+
+impl Tail {
+    fn of(record: &Metadata) -> Self {
+        let get = |key: &str| record.metadata.get(key).map_or("", String::as_str);
+        let bytes = get("original_bytes").parse();
+        let xxh3 = u128::from_str_radix(get("original_xxh3"), 16);
+        Self { messages: get("messages").into(), original: bytes.ok().zip(xxh3.ok()) }
+    }
+}
+
+/// The channel of that number among those that are compacted alike.
+fn numbered(how: How, number: usize) -> Result<&'static Channel, LogError> {
+    compacted(how).nth(number).ok_or_else(|| broken("a channel is not there"))
+}
+
+/// The tick of a `/state` message: it follows the digest, whatever else is in the state.
+fn tick_of(message: &[u8]) -> Result<u64, LogError> {
+    cdr::word(message, StateRecord::TICK).ok_or_else(|| broken("a state without a tick"))
+}
