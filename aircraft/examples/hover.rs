@@ -13,7 +13,7 @@ fn main() {
     let ticks: u64 = ticks.expect("how many ticks");
     let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("our own file");
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).expect("our own file");
-    let mut state = start.state(&xv15).expect("on its wheels");
+    let mut state = start.on_wheels(&xv15);
     // Out of ground effect, and about what holds the weight.
     state.plant.position_m = Vec3::new(0.0, 0.0, -100.0);
     state.cockpit.collective_norm = 0.5;
