@@ -13,7 +13,7 @@
 mod flying;
 
 use engine::frames::{Attitude, Euler, Vec3};
-use engine::inputs::World;
+use engine::inputs::{Failures, World};
 use engine::math::{PI, exp};
 use engine::pair::Pair;
 use engine::step::derivatives;
@@ -219,7 +219,7 @@ fn world_of(chance: &mut Chance) -> World {
     }
     if chance.one_in(4) {
         world.ground_height_m = chance.between(-20.0, 20.0);
-        world.failures = chance.of(64);
+        world.failures = Failures::from_bits_retain(chance.of(64));
         world.temperature_offset_k = chance.between(-40.0, 40.0);
     }
     world.paused = u64::from(chance.one_in(50));
