@@ -1,10 +1,9 @@
 //! `tiltrotor demo`.
 
-use std::process::ExitCode;
-
 use anyhow::Result;
 
 use crate::fly::{Common, Plan};
+use crate::status::Status;
 use crate::{report, verify};
 
 /// The demonstration flight.
@@ -15,7 +14,7 @@ pub struct Args {
 }
 
 /// Flies, verifies, saves for the viewer, and sums up.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common)?;
     plan.flight.self_check = true;
@@ -44,13 +43,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let landing = plan.fly()?;
     report::landing(&landing, real_time, &out.display().to_string());
     if landing.log.is_err() {
-        return Ok(ExitCode::from(report::LOG_CUT_SHORT));
+        return Ok(Status::CutShort);
     }
     let status = verify::verify_one(out);
     #[cfg(feature = "rerun")]
     {
         let bytes = crate::view::save(out, &saved, &replay::Window::default())?;
-        say!("{}: {:.1} MB, for `rerun {0}`", saved.display(), bytes as f64 * 1e-6);
+        say!("{}: {}, for `rerun {0}`", saved.display(), logs::text::size(bytes));
     }
-    Ok(ExitCode::from(status))
+    Ok(status)
 }

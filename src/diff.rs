@@ -1,18 +1,18 @@
 //! `tiltrotor diff`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::{Result, anyhow};
 use engine::STEP_S;
 use engine::inputs::{DeviceEvent, EventKind};
 use indicatif::{ProgressBar, ProgressStyle};
-use logs::Ending;
+use logs::text::at;
 use logs::units::with_unit;
 use replay::{Diff, Extent, FileDifference, KeyDifference, Side, Stage, Which, diff};
 use serde_json::{Value, json};
 
-use crate::{json, report};
+use crate::json;
+use crate::status::Status;
 
 /// Two logs.
 #[derive(clap::Args)]
@@ -41,8 +41,8 @@ enum Format {
 /// Lines of a list, unless all are asked for.
 const LINES: usize = 12;
 
-/// Compares them as they were recorded. Exit 0 the same flight, 1 not, 2 not usable.
-pub fn run(args: &Args) -> Result<ExitCode> {
+/// Compares them as they were recorded.
+pub fn run(args: &Args) -> Result<Status> {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
         bar.set_style(style);
@@ -62,19 +62,15 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         Format::Text => tell(args, &diff),
         Format::Json => say!("{:#}", in_json(args, &diff)),
     }
-    Ok(ExitCode::from(status(&diff)))
+    Ok(status(&diff))
 }
 
-fn status(diff: &Diff) -> u8 {
+fn status(diff: &Diff) -> Status {
     match (diff.usable(), diff.same()) {
-        (false, _) => report::UNUSABLE,
-        (true, true) => 0,
-        (true, false) => report::DIVERGED,
+        (false, _) => Status::Unusable,
+        (true, true) => Status::Done,
+        (true, false) => Status::Differs,
     }
-}
-
-fn when(tick: u64) -> String {
-    format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S)
 }
 
 fn tell(args: &Args, diff: &Diff) {
@@ -97,7 +93,7 @@ fn tell(args: &Args, diff: &Diff) {
     match diff.compared {
         None => say!("they have no tick in common"),
         Some((from, to)) => {
-            say!("compared: {} ticks, from {} to {}", diff.ticks, when(from), when(to));
+            say!("compared: {} ticks, from {} to {}", diff.ticks, at(from), at(to));
         }
     }
     tell_inputs(diff, most);
@@ -113,14 +109,8 @@ fn tell(args: &Args, diff: &Diff) {
 }
 
 fn told(side: &Side) -> String {
-    let end = match (&side.disorder, &side.ending) {
-        (Some(disorder), _) => disorder.clone(),
-        (None, Ending::Closed) => "closed".into(),
-        (None, Ending::Truncated) => "never closed".into(),
-        (None, Ending::Damaged(why)) => format!("damaged: {why}"),
-    };
-    let (from, to) = (when(side.start_tick), when(side.last_tick));
-    format!("from {from} to {to}, digest {:016x}, {end}", side.digest)
+    let (from, to) = (at(side.start_tick), at(side.last_tick));
+    format!("from {from} to {to}, digest {:016x}\n   {}", side.digest, side.judgement)
 }
 
 fn or_none(value: Option<&str>) -> &str {
@@ -140,7 +130,7 @@ fn tell_inputs(diff: &Diff, most: usize) {
         say!(
             "device events: not the same in {} ticks, first for {}",
             diff.events.ticks,
-            when(first.tick)
+            at(first.tick)
         );
         say!("  A         {}", event(first.a.as_ref()));
         say!("  B         {}", event(first.b.as_ref()));
@@ -167,7 +157,7 @@ fn tell_states(diff: &Diff, most: usize) {
         say!("states: the same to the bit");
         return;
     };
-    say!("states: {} fields differ, first at {}", diff.state.len(), when(first.tick));
+    say!("states: {} fields differ, first at {}", diff.state.len(), at(first.tick));
     if diff.parts_at_start() {
         say!("  stage     none: they begin with it");
     } else {
@@ -201,8 +191,8 @@ fn tell_extent(extent: &Extent) {
     say!(
         "    {path}: {} at {}, {ulps} ULP at most; {ticks} ticks, from {} on",
         with_unit(format!("{largest:.3e}"), unit),
-        when(*largest_tick),
-        when(*first_tick)
+        at(*largest_tick),
+        at(*first_tick)
     );
 }
 
@@ -214,15 +204,8 @@ fn in_json(args: &Args, diff: &Diff) -> Value {
             "start_tick": side.start_tick,
             "last_tick": side.last_tick,
             "digest": format!("{:016x}", side.digest),
-            "ending": match &side.ending {
-                Ending::Closed => "closed",
-                Ending::Truncated => "never_closed",
-                Ending::Damaged(_) => "damaged",
-            },
-            "damage": match &side.ending {
-                Ending::Damaged(why) => Some(why),
-                _ => side.disorder.as_ref(),
-            },
+            "judgement": json::judgement(&side.judgement),
+            "end": json::end(&side.end),
         })
     };
     let keys = |keys: &[KeyDifference]| -> Value {
@@ -231,8 +214,8 @@ fn in_json(args: &Args, diff: &Diff) -> Value {
     let file = |file: &FileDifference| json!({ "file": file.name, "keys": keys(&file.keys) });
     json!({
         "report": "tiltrotor diff",
-        "version": 1,
-        "status": status(diff),
+        "version": 2,
+        "status": status(diff).number(),
         "same": diff.same(),
         "a": side(&args.a, &diff.a),
         "b": side(&args.b, &diff.b),

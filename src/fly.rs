@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::thread;
 use std::time::Duration;
 
@@ -16,6 +15,7 @@ use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::{Flight, Landing, Progress, fly};
 
+use crate::status::Status;
 use crate::{condition, identity, report};
 
 /// What flies, from where, and where it is recorded.
@@ -99,7 +99,7 @@ pub struct Common {
 }
 
 /// Flies, and sums up.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let mut plan = Plan::new(&args.common)?;
     plan.flight.self_check = args.self_check;
     if let Some(seconds) = args.duration {
@@ -140,7 +140,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
-    Ok(if landing.log.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(report::LOG_CUT_SHORT) })
+    Ok(if landing.log.is_ok() { Status::Done } else { Status::CutShort })
 }
 
 /// A flight being prepared.

@@ -2,9 +2,11 @@
 
 use engine::STEP_S;
 use logs::fields::Value as Number;
-use replay::growth::{Growth, Sample};
-use replay::{Divergence, InputChange, SingleSteps, Stage};
+use replay::growth::{Checkpoint, Growth};
+use replay::{Divergence, End, InputChange, Judgement, SingleSteps, Stage};
 use serde_json::{Value, json};
+
+use crate::status::Status;
 
 /// A recorded number: its value (`null` where it is none) and its bits.
 pub fn number(number: Number) -> Value {
@@ -14,6 +16,21 @@ pub fn number(number: Number) -> Value {
         Number::I64(value) => json!(value),
     };
     json!({ "value": value, "hex": format!("0x{:016x}", number.bits()) })
+}
+
+/// What a log is.
+pub fn judgement(judgement: &Judgement) -> Value {
+    json!({
+        "outcome": judgement.outcome.name(),
+        "status": Status::from(judgement).number(),
+        "first_bad_tick": judgement.first_bad_tick,
+        "words": judgement.words,
+    })
+}
+
+/// How its reading ended.
+pub fn end(end: &End) -> Value {
+    json!({ "reason": end.name(), "words": end.to_string() })
 }
 
 /// The first difference.
@@ -92,12 +109,12 @@ pub fn growth(growth: &Growth) -> Value {
         "differing_ticks": growth.differing_ticks,
         "same_from_tick": growth.same_from,
         "doubling_s": growth.doubling_s(),
-        "moments": growth.moments.iter().map(moment).collect::<Vec<_>>(),
+        "checkpoints": growth.checkpoints.iter().map(checkpoint).collect::<Vec<_>>(),
     })
 }
 
-fn moment(moment: &Sample) -> Value {
-    let groups = moment.groups.iter().map(|group| {
+fn checkpoint(checkpoint: &Checkpoint) -> Value {
+    let groups = checkpoint.groups.iter().map(|group| {
         json!({
             "group": group.group,
             "unit": group.unit,
@@ -106,9 +123,9 @@ fn moment(moment: &Sample) -> Value {
         })
     });
     json!({
-        "after_s": moment.after_s,
-        "tick": moment.tick,
-        "fields": moment.fields,
+        "after_s": checkpoint.after_s,
+        "tick": checkpoint.tick,
+        "fields": checkpoint.fields,
         "groups": groups.collect::<Vec<_>>(),
     })
 }

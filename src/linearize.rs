@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use analysis::linearize::{INPUTS, Linear, OUTPUTS, decibels, linearize};
 use analysis::modes::{Mode, modes};
@@ -12,7 +11,7 @@ use anyhow::{Context, Result};
 use engine::units::{DEG_PER_RAD as DEG, INCH_M};
 
 use crate::condition::Condition;
-use crate::report;
+use crate::status::Status;
 
 /// About which steady flight.
 #[derive(clap::Args)]
@@ -77,7 +76,7 @@ const RESPONSES: [Response; 4] = [
 const OMEGAS: [f64; 11] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
 
 /// Trims, linearises, and prints modes and matrices.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let (aircraft, target) = args.condition.read()?;
     let trim = match trim(&aircraft, &target) {
         Ok(trim) => trim,
@@ -91,16 +90,16 @@ pub fn run(args: &Args) -> Result<ExitCode> {
                 fs::write(path, csv(&linear, &found.eigenvalues))
                     .with_context(|| format!("cannot write {}", path.display()))?;
             }
-            Ok(ExitCode::SUCCESS)
+            Ok(Status::Done)
         }
         Err(why) => Ok(unsolved(&why.to_string())),
     }
 }
 
 /// Says that there is no answer; nothing of it is printed or written.
-fn unsolved(why: &str) -> ExitCode {
+fn unsolved(why: &str) -> Status {
     complain!("tiltrotor: {why}");
-    ExitCode::from(report::NO_TRIM)
+    Status::NotConverged
 }
 
 /// What is found of a linear system.

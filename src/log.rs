@@ -7,15 +7,15 @@ mod trim;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
 use logs::evolution::Difference;
+use logs::text::{at, size};
 use logs::{Ending, LogError, Messages, OpenOptions};
 use recorder::statistics::Statistics;
 
-use crate::report;
+use crate::status::Status;
 use crate::window::WindowArgs;
 
 /// What to do with a log.
@@ -57,7 +57,7 @@ pub enum Command {
 }
 
 /// Carries it out.
-pub fn run(command: &Command) -> Result<ExitCode> {
+pub fn run(command: &Command) -> Result<Status> {
     match command {
         Command::Info { log } => info(log),
         Command::Cat(args) => cat::run(args),
@@ -70,7 +70,7 @@ pub fn run(command: &Command) -> Result<ExitCode> {
     }
 }
 
-fn info(log: &Path) -> Result<ExitCode> {
+fn info(log: &Path) -> Result<Status> {
     let across = OpenOptions { aircraft_of: None, across_versions: true };
     let opened = match logs::open(log, across) {
         // A compacted log is this version's, or nobody's.
@@ -118,7 +118,7 @@ fn info(log: &Path) -> Result<ExitCode> {
     let ticks = last.saturating_sub(start);
     say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
     if start != 0 {
-        say!("  {:<16} tick {start} ({:.3} s)", "begins at", start as f64 * STEP_S);
+        say!("  {:<16} {}", "begins at", at(start));
     }
     if reader.is_compacted() {
         say!("  {:<16} yes: most states are flown again while reading", "compacted");
@@ -157,17 +157,17 @@ fn info(log: &Path) -> Result<ExitCode> {
         (None, _) => "not closed: killed, or cut".into(),
     };
     say!("  {:<16} {ending}", "end of the log");
-    Ok(if ending == "closed" { ExitCode::SUCCESS } else { ExitCode::from(report::UNUSABLE) })
+    Ok(if ending == "closed" { Status::Done } else { Status::Unusable })
 }
 
-fn summary(log: &Path, window: &WindowArgs) -> Result<ExitCode> {
+fn summary(log: &Path, window: &WindowArgs) -> Result<Status> {
     let window = window.of(log)?;
     let summary = replay::summary(log, &window).with_context(|| log.display().to_string())?;
     say!("{}: {summary}", log.display());
-    Ok(if summary.exact { ExitCode::SUCCESS } else { ExitCode::from(report::DIVERGED) })
+    Ok(Status::from(&summary.judgement))
 }
 
-fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {
+fn recover(broken: &Path, out: &Path, force: bool) -> Result<Status> {
     let done = logs::recover(broken, out, force).with_context(|| broken.display().to_string())?;
     say!(
         "{}: kept {} ticks ({:.3} s) of {}, each proven by its checksum and digest",
@@ -183,12 +183,8 @@ fn recover(broken: &Path, out: &Path, force: bool) -> Result<ExitCode> {
     if done.messages_foreign > 0 {
         say!("           {} messages on channels of others", done.messages_foreign);
     }
-    say!(
-        "size       {:.1} kB of {:.1} kB",
-        done.bytes_written as f64 * 1e-3,
-        done.bytes_read as f64 * 1e-3
-    );
-    Ok(ExitCode::SUCCESS)
+    say!("size       {} of {}", size(done.bytes_written), size(done.bytes_read));
+    Ok(Status::Done)
 }
 
 fn say_facts(of: &str, facts: &BTreeMap<String, String>) {
@@ -198,7 +194,7 @@ fn say_facts(of: &str, facts: &BTreeMap<String, String>) {
 }
 
 /// What any version can say of a log: what it says of itself, and how many messages there are.
-fn what_is_there(log: &Path) -> Result<ExitCode> {
+fn what_is_there(log: &Path) -> Result<Status> {
     let mut messages = Messages::open(log, OpenOptions::default())?;
     let mut channels: BTreeMap<String, (u64, usize)> = BTreeMap::new();
     while let Some(message) = messages.next_message() {
@@ -216,5 +212,5 @@ fn what_is_there(log: &Path) -> Result<ExitCode> {
         say!("  {topic:<16} {count} messages of {numbers} numbers");
     }
     say!("  it cannot be reflown; `log cat` and `log export` read it by its own schema");
-    Ok(ExitCode::from(report::UNUSABLE))
+    Ok(Status::Unusable)
 }

@@ -26,6 +26,7 @@ mod linearize;
 mod log;
 mod replay_live;
 mod report;
+mod status;
 mod trim;
 mod verify;
 mod view;
@@ -34,7 +35,9 @@ mod window;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use status::Status;
 
 /// A deterministic, piloted simulation of the Bell XV-15, and the tooling around its log.
 #[derive(Parser)]
@@ -50,10 +53,9 @@ enum Command {
     Fly(fly::Args),
     /// Refly a log, live in FlightGear.
     Replay(replay_live::Args),
-    /// Do logs refly to the same bits? Exit 0 exact, 1 diverged or altered, 2 not a usable log, 3 exact
-    /// but never closed, 6 flown across versions; of several logs the gravest: 2, then 1, 6, 3.
+    /// Do logs refly to the same bits?
     Verify(verify::Args),
-    /// Two logs, field by field, as they were recorded. Exit 0 the same flight, 1 not, 2 not usable.
+    /// Two logs, field by field, as they were recorded.
     Diff(diff::Args),
     /// Show a log in the rerun viewer, or save it for the viewer.
     View(view::Args),
@@ -63,7 +65,7 @@ enum Command {
     /// What is in a log.
     #[command(subcommand)]
     Log(log::Command),
-    /// Steady flight: attitude, controls, power. Exit 0 trimmed, 5 no trim.
+    /// Steady flight: attitude, controls, power.
     Trim(trim::Args),
     /// Small motions about a steady flight: modes, frequency responses, state-space matrices. Exit 0
     /// solved, 5 no steady flight, or not converged.
@@ -73,7 +75,9 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let run = match Cli::parse().command {
+    let matches = status::explained(Cli::command()).get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let run = match cli.command {
         Command::Fly(args) => fly::run(&args),
         Command::Replay(args) => replay_live::run(&args),
         Command::Verify(args) => verify::run(&args),
@@ -85,8 +89,9 @@ fn main() -> ExitCode {
         Command::Linearize(args) => linearize::run(&args),
         Command::Demo(args) => demo::run(&args),
     };
-    run.unwrap_or_else(|error| {
+    let status = run.unwrap_or_else(|error| {
         complain!("tiltrotor: {error:#}");
-        ExitCode::from(report::UNUSABLE)
-    })
+        Status::Unusable
+    });
+    status.into()
 }

@@ -1,7 +1,6 @@
 //! `tiltrotor replay`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::{Result, anyhow, bail};
 use engine::STEP_S;
@@ -11,6 +10,7 @@ use recorder::Pace;
 use replay::{Reflight, ReflyOptions};
 
 use crate::report;
+use crate::status::Status;
 use crate::window::WindowArgs;
 
 /// What to refly, and where to show it.
@@ -32,7 +32,7 @@ pub struct Args {
 }
 
 /// Reflies the log and sends every tick's picture.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
         bail!("--speed {}: expected 0.01 to 1000", args.speed);
     }
@@ -75,13 +75,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     }
     let comparison = versions.is_some_and(|versions| versions.comparison());
     match flight.ending() {
-        Ending::Closed | Ending::Truncated if comparison => Ok(ExitCode::from(report::COMPARED)),
-        Ending::Closed if first_difference.is_some() => Ok(ExitCode::from(report::DIVERGED)),
-        Ending::Closed => Ok(ExitCode::SUCCESS),
+        Ending::Closed | Ending::Truncated if comparison => Ok(Status::Compared),
+        Ending::Closed if first_difference.is_some() => Ok(Status::Differs),
+        Ending::Closed => Ok(Status::Done),
         Ending::Truncated => {
             let log = args.log.display();
             complain!("tiltrotor: {log}: it ends there without having been closed");
-            Ok(ExitCode::from(report::NEVER_CLOSED))
+            Ok(Status::NeverClosed)
         }
         Ending::Damaged(why) => {
             bail!("{}: the file is damaged after that: {why}", args.log.display())

@@ -1,24 +1,12 @@
-//! What a flight prints when it is over, and the exit statuses.
+//! What a flight prints when it is over.
 
 use engine::STEP_S;
 use engine::units::degrees;
 use logs::LogError;
+use logs::text::size;
 use recorder::Landing;
 use recorder::statistics::Durations;
 use replay::ReplayError;
-
-/// A log that does not refly to the same bits, or was changed.
-pub const DIVERGED: u8 = 1;
-/// A log that cannot be used, or a command that cannot be carried out.
-pub const UNUSABLE: u8 = 2;
-/// A log that is exact as far as it goes, but was never closed.
-pub const NEVER_CLOSED: u8 = 3;
-/// The flight went on, but its log ends early.
-pub const LOG_CUT_SHORT: u8 = 4;
-/// There is no such steady flight, or what was asked of it has not converged.
-pub const NO_TRIM: u8 = 5;
-/// A log of another version, flown for comparison.
-pub const COMPARED: u8 = 6;
 
 /// Why a log is not reflown, and what can be done about it.
 pub fn refusal(error: &ReplayError) -> String {
@@ -65,8 +53,8 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     say!("FlightGear {} packets sent, {} not", landing.sent, landing.unsent);
     match &landing.log {
         Ok(closed) => say!(
-            "log        {out}, {:.1} MB ({:.0} B a tick), digest {:016x}, nothing dropped",
-            closed.bytes as f64 * 1e-6,
+            "log        {out}, {} ({:.0} B a tick), digest {:016x}, nothing dropped",
+            size(closed.bytes),
             closed.bytes as f64 / flown.ticks.max(1) as f64,
             closed.digest
         ),
@@ -74,7 +62,7 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     }
     if landing.delay.times > 0 {
         say!(
-            "writer     held up {} times, {:.1} s at most; at most {} items waited, none was lost",
+            "writer     held up {} times, {:.1} s at most; at most {} entries waited, none was lost",
             landing.delay.times,
             landing.delay.longest.as_secs_f64(),
             landing.backlog_max

@@ -2,14 +2,13 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use analysis::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
 use anyhow::{Context, Result};
 use engine::units::{DEG_PER_RAD as DEG, FOOT_M, HOUR_S, INCH_M, KNOT_MPS, POUND_KG, POUND_N};
 
 use crate::condition::{Condition, sweep};
-use crate::report;
+use crate::status::Status;
 
 /// Which steady flight, or flights.
 #[derive(clap::Args)]
@@ -110,7 +109,7 @@ impl Column {
 }
 
 /// Trims, and prints a list or a table.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let (aircraft, target) = args.condition.read()?;
     let speeds_kt = match &args.sweep {
         Some(Sweep(speeds)) => speeds.clone(),
@@ -138,7 +137,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         list(&rows[0].1);
     }
     let steady = rows.iter().all(|(_, found)| found.is_ok());
-    Ok(if steady { ExitCode::SUCCESS } else { ExitCode::from(report::NO_TRIM) })
+    Ok(if steady { Status::Done } else { Status::NotConverged })
 }
 
 /// A row of a sweep: the speed, and what was found.

@@ -7,7 +7,6 @@ mod recordings;
 
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread;
@@ -16,9 +15,10 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
-use replay::{Options, Outcome, Verdict, verify};
+use replay::{Judgement, Options, Outcome, Verdict, verify};
 
 use crate::report;
+use crate::status::Status;
 use crate::window::WindowArgs;
 use corpus::Shard;
 
@@ -85,8 +85,8 @@ enum Format {
 /// What became of one log.
 struct Verified {
     log: PathBuf,
-    /// The verdict, or why there is none.
-    verdict: Result<Verdict, String>,
+    /// The verdict; of what cannot be reflown, why not.
+    verdict: Result<Verdict, Judgement>,
     took: Duration,
 }
 
@@ -97,28 +97,26 @@ impl Verified {
         let verdict = options.map_err(|error| format!("{error:#}")).and_then(|options| {
             verify(log, &options, progress).map_err(|error| report::refusal(&error))
         });
+        let verdict = verdict.map_err(Judgement::unusable);
         Self { log: log.into(), verdict, took: started.elapsed() }
     }
 
-    /// The exit status it alone would give.
-    fn status(&self) -> u8 {
-        match self.verdict.as_ref().map(Verdict::outcome) {
-            Ok(Outcome::Exact) => 0,
-            Ok(Outcome::Diverged) => report::DIVERGED,
-            Ok(Outcome::Damaged) | Err(_) => report::UNUSABLE,
-            Ok(Outcome::Incomplete) => report::NEVER_CLOSED,
-            Ok(Outcome::Compared) => report::COMPARED,
+    /// What the log is.
+    fn judgement(&self) -> &Judgement {
+        match &self.verdict {
+            Ok(verdict) => &verdict.judgement,
+            Err(judgement) => judgement,
         }
     }
 
-    /// In one word.
-    fn outcome(&self) -> &'static str {
-        self.verdict.as_ref().map_or("unusable", |verdict| verdict.outcome().name())
+    /// The exit status it alone would give.
+    fn status(&self) -> Status {
+        self.judgement().into()
     }
 
     /// Simulated time that was reflown, s.
     fn flown_s(&self) -> f64 {
-        self.verdict.as_ref().map_or(0.0, |verdict| verdict.exact as f64 * STEP_S)
+        self.verdict.as_ref().map_or(0.0, |verdict| verdict.facts.same as f64 * STEP_S)
     }
 
     fn say(&self) {
@@ -128,7 +126,7 @@ impl Verified {
                 let (flown_s, took_s) = (self.flown_s(), self.took.as_secs_f64());
                 say!("reflown in {took_s:.2} s, {:.0} times real time", flown_s / took_s);
             }
-            Err(error) => complain!("tiltrotor: {}: {error}", self.log.display()),
+            Err(unusable) => complain!("tiltrotor: {}: {unusable}", self.log.display()),
         }
     }
 }
@@ -142,13 +140,13 @@ struct Run {
 }
 
 impl Run {
-    /// The worst of all.
-    fn status(&self) -> u8 {
-        self.logs.iter().map(Verified::status).fold(0, worse)
+    /// The gravest of all.
+    fn status(&self) -> Status {
+        Status::gravest(self.logs.iter().map(Verified::status))
     }
 
-    fn count(&self, outcome: &str) -> usize {
-        self.logs.iter().filter(|log| log.outcome() == outcome).count()
+    fn count(&self, outcome: Outcome) -> usize {
+        self.logs.iter().filter(|log| log.judgement().outcome == outcome).count()
     }
 
     fn flown_s(&self) -> f64 {
@@ -156,10 +154,9 @@ impl Run {
     }
 
     fn say_sum(&self) {
-        let all = ["exact", "diverged", "incomplete", "compared", "damaged", "unusable"];
-        let counts: Vec<_> = all
+        let counts: Vec<_> = Outcome::ALL
             .into_iter()
-            .map(|outcome| (self.count(outcome), outcome))
+            .map(|outcome| (self.count(outcome), outcome.name().replace('_', " ")))
             .filter(|(count, _)| *count > 0)
             .map(|(count, outcome)| format!("{count} {outcome}"))
             .collect();
@@ -175,8 +172,8 @@ impl Run {
     }
 }
 
-/// Verifies every log; the worst outcome is the exit status.
-pub fn run(args: &Args) -> Result<ExitCode> {
+/// Verifies every log; the gravest outcome is the exit status.
+pub fn run(args: &Args) -> Result<Status> {
     if let Some(folder) = &args.rrd {
         recordings::prepare(folder)?;
     }
@@ -208,13 +205,12 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     if let Some(folder) = &args.rrd {
         recordings::save(&run, folder)?;
     }
-    Ok(ExitCode::from(run.status()))
+    Ok(run.status())
 }
 
 /// Verifies a log, prints the verdict, and returns the exit status.
-pub fn verify_one(log: &Path) -> u8 {
-    let verified = verify_all(&[log.into()], 1, None, true);
-    verified.iter().map(Verified::status).fold(0, worse)
+pub fn verify_one(log: &Path) -> Status {
+    Status::gravest(verify_all(&[log.into()], 1, None, true).iter().map(Verified::status))
 }
 
 /// Verifies them on so many threads; each is told, in the order of the list, as soon as it and all
@@ -273,31 +269,5 @@ impl Done {
             verified.say();
             self.told += 1;
         }
-    }
-}
-
-/// The graver of two statuses: unusable, then diverged, then compared, then never closed.
-fn worse(a: u8, b: u8) -> u8 {
-    let grave = |status| match status {
-        0 => 0,
-        report::NEVER_CLOSED => 1,
-        report::COMPARED => 2,
-        report::DIVERGED => 3,
-        _ => 4,
-    };
-    if grave(b) > grave(a) { b } else { a }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_worst_of_several_statuses_is_told() {
-        use report::{DIVERGED, NEVER_CLOSED, UNUSABLE};
-        assert_eq!([0, 0].into_iter().fold(0, worse), 0);
-        assert_eq!([0, NEVER_CLOSED].into_iter().fold(0, worse), NEVER_CLOSED);
-        assert_eq!([NEVER_CLOSED, DIVERGED, 0].into_iter().fold(0, worse), DIVERGED);
-        assert_eq!([DIVERGED, UNUSABLE, NEVER_CLOSED].into_iter().fold(0, worse), UNUSABLE);
     }
 }

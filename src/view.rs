@@ -1,9 +1,10 @@
 //! `tiltrotor view`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::Result;
+
+use crate::status::Status;
 
 /// What to show.
 #[derive(clap::Args)]
@@ -30,13 +31,14 @@ mod with_rerun {
 
     use anyhow::{Context, bail};
     use engine::STEP_NS;
+    use logs::text::{at, size};
     use replay::view::{DrawError, FlightView, Other, Severity, draw_against};
     use replay::{Reflight, ReflyOptions, Window};
 
-    use super::{Args, ExitCode, Result};
+    use super::{Args, Result, Status};
 
     /// Reflies the log into a recording, and opens the viewer unless it is to be saved.
-    pub fn run(args: &Args) -> Result<ExitCode> {
+    pub fn run(args: &Args) -> Result<Status> {
         let saved = args.save.clone().unwrap_or_else(|| args.log.with_extension("rrd"));
         if saved.exists() && !args.force {
             bail!("{} exists; overwrite it with --force", saved.display());
@@ -51,7 +53,7 @@ mod with_rerun {
             Some(other) => save_against(&args.log, Other::Log(other), &saved)?,
             None => save(&args.log, &saved, &window)?,
         };
-        say!("{}: {:.1} MB for rerun", saved.display(), bytes as f64 * 1e-6);
+        say!("{}: {} for rerun", saved.display(), size(bytes));
         if args.save.is_none() {
             Command::new("rerun").arg(&saved).spawn().with_context(|| {
                 format!(
@@ -60,7 +62,7 @@ mod with_rerun {
                 )
             })?;
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(Status::Done)
     }
 
     /// Draws the log and what is beside it into a recording; returns its size.
@@ -75,7 +77,7 @@ mod with_rerun {
         })?;
         match drawn.first_difference {
             Some(tick) => {
-                say!("first difference at tick {tick} ({:.3} s)", tick as f64 * engine::STEP_S);
+                say!("first difference at {}", at(tick));
             }
             None => say!("no difference"),
         }
@@ -110,7 +112,7 @@ pub use with_rerun::{run, save};
 
 /// Says what is missing.
 #[cfg(not(feature = "rerun"))]
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let Args { log, against: _, save: _, force: _, window: _ } = args;
     anyhow::bail!(
         "{}: this program was built without `rerun`; build it with the default features, or open the \

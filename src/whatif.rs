@@ -1,15 +1,16 @@
 //! `tiltrotor whatif`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::math::{atan2, min, sqrt};
 use engine::units::{degrees, knots};
 use engine::{Outputs, STEP_S, State};
+use logs::text::size;
 use replay::{NewLog, Window, names_parent, parent, rewrite};
 
 use crate::identity;
+use crate::status::Status;
 use crate::window::When;
 
 /// What to change, and from when on.
@@ -38,7 +39,7 @@ pub struct Args {
 }
 
 /// Flies what would have been, and says what became of it.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let log = &args.log;
     let name = || log.display().to_string();
     let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
@@ -86,16 +87,16 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     .with_context(name)?;
     say!("{}: {}", out.display(), changes.join("; "));
     say!(
-        "{:.3} s to {:.3} s of {} by its recorded inputs, {:.1} MB, digest {:016x}",
+        "{:.3} s to {:.3} s of {} by its recorded inputs, {}, digest {:016x}",
         initial.time_s(),
         apart.last_tick as f64 * STEP_S,
         log.display(),
-        written.closed.bytes as f64 * 1e-6,
+        size(written.closed.bytes),
         written.closed.digest
     );
     apart.say();
     say!("`tiltrotor diff {} {}` says more", log.display(), out.display());
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 fn beside(log: &Path) -> PathBuf {

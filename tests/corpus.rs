@@ -43,7 +43,7 @@ fn mixed(name: &str) -> PathBuf {
     let place = corpus(name);
     let mut forgery = Forgery::of(flight());
     flip_state_bit(&mut forgery, 100, "plant.fuel_kg");
-    forgery.write(&place.join("diverged.mcap"));
+    forgery.write(&place.join("altered.mcap"));
     let whole = fs::read(flight()).expect("a log");
     fs::write(place.join("cut.mcap"), &whole[..whole.len() * 4 / 5]).expect("a file");
     fs::write(place.join("foreign.mcap"), "no log, but a good hundred bytes of it")
@@ -114,9 +114,9 @@ fn of_several_logs_the_gravest_decides() {
         tiltrotor(&[&["verify"], &logs[..]].concat())
     };
     verify(&["a.mcap", "z.mcap"]).ends(OK).says("2 logs: 2 exact");
-    verify(&["a.mcap", "cut.mcap"]).ends(INCOMPLETE).says("1 exact, 1 incomplete");
-    verify(&["cut.mcap", "diverged.mcap", "a.mcap"]).ends(DIVERGED);
-    verify(&["diverged.mcap", "foreign.mcap", "cut.mcap"]).ends(UNUSABLE);
+    verify(&["a.mcap", "cut.mcap"]).ends(INCOMPLETE).says("1 exact, 1 never closed");
+    verify(&["cut.mcap", "altered.mcap", "a.mcap"]).ends(DIVERGED);
+    verify(&["altered.mcap", "foreign.mcap", "cut.mcap"]).ends(UNUSABLE);
     verify(&["a.mcap", "missing.mcap"]).ends(UNUSABLE).says("exact: all 250 ticks");
 }
 
@@ -155,18 +155,21 @@ fn a_ci_server_reads_which_logs_failed_and_why() {
         assert!(matches!(case.status, TestCaseStatus::Success { .. }), "{said}");
     }
     let failed = [
-        ("diverged.mcap", NonSuccessKind::Failure, "diverged", "plant.fuel_kg"),
-        ("cut.mcap", NonSuccessKind::Failure, "incomplete", "without having been closed"),
+        ("altered.mcap", NonSuccessKind::Failure, "altered", "plant.fuel_kg"),
+        ("cut.mcap", NonSuccessKind::Failure, "never_closed", "without having been closed"),
         ("foreign.mcap", NonSuccessKind::Error, "unusable", "not a flight log"),
     ];
     for (name, expected, word, why) in failed {
         let case = cases.iter().find(|case| case.name.as_str().ends_with(name)).expect(name);
-        let TestCaseStatus::NonSuccess { kind, ty, description, .. } = &case.status else {
+        let TestCaseStatus::NonSuccess { kind, ty, message, description, .. } = &case.status else {
             panic!("{name} passed: {said}");
         };
         assert_eq!(*kind, expected, "{name}");
         assert_eq!(ty.as_ref().map(quick_junit::XmlString::as_str), Some(word), "{name}");
         let description = description.as_ref().map_or("", |text| text.as_str());
         assert!(description.contains(why), "{name}: {description}");
+        let message = message.as_ref().map_or("", |text| text.as_str());
+        assert!(description.starts_with(message) && !message.is_empty(), "{name}: {message}");
+        assert!(!message.contains("as its writer closed it"), "{name}: {message}");
     }
 }

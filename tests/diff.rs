@@ -158,7 +158,7 @@ fn flights_of_other_weather_part_and_grow_apart() {
     let world = report["world"].as_array().expect("fields");
     let wind = world[0]["first_tick"].as_u64().expect("a tick");
     assert!(report["first"]["tick"].as_u64().expect("a tick") >= wind, "{report:#}");
-    let growth = report["growth"]["moments"].as_array().expect("moments");
+    let growth = report["growth"]["checkpoints"].as_array().expect("checkpoints");
     assert_eq!(growth.len(), 5, "{report:#}");
 }
 

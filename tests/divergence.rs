@@ -129,18 +129,18 @@ fn a_block_that_keeps_no_state_is_named_by_what_was_recorded_of_it() {
 fn the_growth_is_told_from_second_to_second() {
     let report = json(other_wing());
     let growth = &report["logs"][0]["divergence"]["growth"];
-    let moments = growth["moments"].as_array().expect("moments");
-    let after: Vec<_> = moments.iter().filter_map(|moment| moment["after_s"].as_u64()).collect();
+    let checkpoints = growth["checkpoints"].as_array().expect("checkpoints");
+    let after: Vec<_> = checkpoints.iter().filter_map(|at| at["after_s"].as_u64()).collect();
     assert_eq!(after, [0, 1, 2, 5, 10], "{report:#}");
-    let velocity = |moment: &Value| {
-        let groups = moment["groups"].as_array().expect("groups").iter();
+    let velocity = |at: &Value| {
+        let groups = at["groups"].as_array().expect("groups").iter();
         let mut found = groups.filter(|group| group["group"] == "plant.velocity_mps");
         found.next().map_or(0.0, |group| {
             assert_eq!(group["unit"], "m/s");
             group["absolute"].as_f64().expect("a number")
         })
     };
-    let (first, last) = (&moments[0], &moments[4]);
+    let (first, last) = (&checkpoints[0], &checkpoints[4]);
     assert!(velocity(last) > velocity(first), "{report:#}");
     assert!(last["fields"].as_u64() > first["fields"].as_u64(), "{report:#}");
     let begins = growth["first_tick"].as_u64().expect("a tick");
@@ -151,10 +151,14 @@ fn the_growth_is_told_from_second_to_second() {
 fn the_report_for_programs_has_every_bit() {
     let file = forged("json", |log| flip_state_bit(log, 1234, "plant.velocity_mps.x"));
     let report = json(&file);
-    assert_eq!((&report["version"], &report["status"]), (&1.into(), &1.into()));
+    assert_eq!((&report["version"], &report["status"]), (&2.into(), &1.into()));
+    assert_eq!(report["count"]["altered"], 1, "{report:#}");
     let log = &report["logs"][0];
-    assert_eq!(log["outcome"], "diverged");
-    assert_eq!(log["stopped"]["reason"], "diverged");
+    assert_eq!((&log["outcome"], &log["status"]), (&"altered".into(), &1.into()));
+    assert_eq!((&log["first_bad_tick"], &log["diverged_tick"]), (&1234.into(), &1234.into()));
+    let words = log["words"].as_str().expect("a sentence");
+    assert!(words.starts_with("altered at tick 1234 (4.936 s): "), "{words}");
+    assert_eq!(log["end"]["reason"], "closed");
     assert_eq!(
         (&log["exact_tick"], &log["last_tick"], &log["altered_tick"]),
         (&1233.into(), &3750.into(), &1234.into())
@@ -187,6 +191,7 @@ fn the_last_change_of_the_world_is_named_with_its_moment() {
 fn an_exact_flight_has_nothing_to_report() {
     let report = json(flight());
     assert_eq!((&report["status"], &report["logs"][0]["divergence"]), (&0.into(), &Value::Null));
-    assert_eq!(report["logs"][0]["stopped"]["reason"], "closed");
+    assert_eq!(report["logs"][0]["outcome"], "exact");
+    assert_eq!(report["logs"][0]["end"]["reason"], "closed");
     tiltrotor(&["verify", "--format", "json", text(flight())]).ends(OK);
 }

@@ -260,7 +260,7 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
     fuzz("forged", 300, forged, |bytes| {
         fs::write(&broken, bytes).expect("a file");
         let verdict = verify(&broken, &Options::default(), |_| {});
-        if verdict.as_ref().is_ok_and(|verdict| verdict.outcome() == Outcome::Exact) {
+        if verdict.as_ref().is_ok_and(|verdict| verdict.judgement.outcome == Outcome::Exact) {
             assert!(flight(&Forgery::of(&broken)) == flight(&whole), "accepted");
         }
         let _ = verdict.map(|verdict| verdict.to_string());

@@ -100,7 +100,7 @@ fn one_bit_of_a_recorded_state_is_named_by_tick_field_and_values() {
         .says("plant.velocity_mps.x")
         .says("1 ULP")
         .says("0 more fields differ")
-        .says("the log was changed after the flight: the digest breaks at tick 1234")
+        .says("forged.mcap: altered at tick 1234 (4.936 s): the log was changed after the flight")
         .never_says("damaged");
     let (recorded, reflown) = (value(&said, "recorded"), value(&said, "reflown"));
     assert_eq!(recorded.1 ^ reflown.1, 1, "one bit: {said}");
@@ -150,14 +150,17 @@ fn one_bit_of_a_digest_is_found() {
     let log = forged("digest", |log| log.bytes(STATE, 777)[4] ^= 1);
     verify(&log)
         .ends(DIVERGED)
-        .says("the log was changed after the flight: the digest breaks at tick 777")
+        .says("forged.mcap: altered at tick 777 (3.108 s): the log was changed after the flight")
+        .says("exact up to tick 776 of 5000")
+        .says("the states refly to the same bits up to tick 5000 (20.000 s)")
+        .never_says("as its writer closed it")
         .never_says("first difference");
 }
 
 #[test]
 fn one_bit_of_the_first_state_is_found() {
     let log = forged("first", |log| flip_state_bit(log, 0, "plant.fuel_kg"));
-    verify(&log).ends(DIVERGED).says("the log was changed after the flight").says("first state");
+    verify(&log).ends(DIVERGED).says("altered at tick 0").says("first state");
 }
 
 #[test]
@@ -174,7 +177,7 @@ fn an_aircraft_changed_after_the_flight_is_found_by_digest_and_by_motion() {
         .says("first difference: tick ")
         .says("  stage     rotors")
         .says("  field     plant.rotors.")
-        .says("the log was changed after the flight: its aircraft");
+        .says("altered at tick 0 (0.000 s): the log was changed after the flight, its aircraft");
 }
 
 #[test]
@@ -184,7 +187,11 @@ fn a_comment_added_to_a_file_of_the_log_is_found() {
             let file = log.attachments.iter_mut().find(|known| known.name == file).expect(file);
             file.data.to_mut().extend_from_slice(b"# harmless\n");
         });
-        verify(&log).ends(DIVERGED).says("the log was changed after the flight").says("5000");
+        verify(&log)
+            .ends(DIVERGED)
+            .says("altered at tick 0 (0.000 s): the log was changed after the flight")
+            .says("exact up to tick 0 of 5000")
+            .never_says("as its writer closed it");
     }
 }
 
@@ -199,7 +206,7 @@ fn a_changed_world_is_found() {
         .says("exact up to tick 3000 of 5000")
         .says("first difference: tick 3001")
         .says("last input: world.wind_mps.x from 0.0 m/s to 5.0 m/s, for tick 3001")
-        .says("the digest breaks at tick 3001");
+        .says("altered at tick 3001 (12.004 s)");
 }
 
 #[test]
@@ -212,7 +219,7 @@ fn a_changed_device_event_is_found() {
         .ends(DIVERGED)
         .says("first difference: tick ")
         .says("last input: device 0 axis")
-        .says("the log was changed after the flight: the digest breaks at tick ");
+        .says("forged.mcap: altered at tick ");
 }
 
 #[test]
@@ -222,7 +229,11 @@ fn the_kernel_s_time_of_a_device_event_cannot_be_changed_unnoticed() {
         let time = place_of::<DeviceEvent>("kernel_time_ns");
         log.bytes(HARDWARE, 900)[time] ^= 1;
     });
-    verify(&log).ends(DIVERGED).says("the digest breaks at tick ").never_says("first difference");
+    verify(&log)
+        .ends(DIVERGED)
+        .says("forged.mcap: altered at tick ")
+        .never_says("as its writer closed it")
+        .never_says("first difference");
 }
 
 #[test]
@@ -255,7 +266,7 @@ fn two_swapped_device_events_are_found() {
         let pair = pair.expect("a tick with two events");
         log.messages.swap(pair[0], pair[1]);
     });
-    verify(&log).ends(DIVERGED).says("the log was changed after the flight: the digest breaks at");
+    verify(&log).ends(DIVERGED).says("forged.mcap: altered at tick ");
 }
 
 #[test]
@@ -278,7 +289,7 @@ fn a_log_whose_end_was_taken_off_and_closed_again_is_not_whole() {
         let last = log.places(STATE)[4900];
         log.messages.truncate(last + 1);
     });
-    verify(&log).ends(INCOMPLETE).says("exact up to tick 4900");
+    verify(&log).ends(INCOMPLETE).says("forged.mcap: never closed: ").says("exact up to tick 4900");
 }
 
 #[test]
@@ -287,7 +298,11 @@ fn a_closed_log_that_ends_in_the_middle_of_a_tick_is_not_accepted() {
         let place = *log.places(STATE).last().expect("a state");
         log.messages.truncate(place);
     });
-    verify(&log).ends(UNUSABLE).says("exact up to tick 4999").says("the last tick has no state");
+    verify(&log)
+        .ends(UNUSABLE)
+        .says("forged.mcap: damaged after tick 4999 (19.996 s)")
+        .says("exact up to tick 4999")
+        .says("the last tick has no state");
 }
 
 #[test]

@@ -230,7 +230,7 @@ fn a_changed_bit_is_found_in_another_layout_too() {
         // The last number of the state.
         log.bytes(STATE, 20).last_mut().map(|byte| *byte ^= 1).expect("a byte");
     });
-    verify(&log).ends(DIVERGED).says("the digest breaks at tick 20");
+    verify(&log).ends(DIVERGED).says("altered at tick 20 (0.080 s)");
 }
 
 #[test]

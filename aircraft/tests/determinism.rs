@@ -5,7 +5,7 @@ mod flying;
 use engine::frames::{Attitude, Euler, Vec3};
 use engine::inputs::{DeviceEvent, World};
 use engine::symmetry::Mirror;
-use engine::{Inputs, State, step};
+use engine::{Inputs, Outputs, State, observe, step};
 use flying::{
     TICKS_PER_S, aloft, assert_same_bits, calm, parked, step_in_the_mirror, violent_flight, xv15,
 };
@@ -75,6 +75,8 @@ fn a_pause_holds_everything_but_the_tick() {
     let (held, outputs) = step(&xv15, &state, &Inputs { events: &[], world: paused });
     assert_same_bits(&held, &State { tick: state.tick + 1, ..state }, "the paused state");
     assert!(outputs.commands.lever_norm > 0.0, "what the computer asks for stays to be seen");
+    let seen = observe(&xv15, &state, &World { paused: 0, ..paused });
+    assert_eq!(seen, Outputs { tick: state.tick, ..outputs }, "what is seen without a tick");
 }
 
 #[test]

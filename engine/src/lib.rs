@@ -51,7 +51,7 @@ pub use aircraft::Aircraft;
 pub use inputs::Inputs;
 pub use outputs::Outputs;
 pub use state::State;
-pub use step::{step, step_state};
+pub use step::{observe, step, step_state};
 
 /// Length of a tick, s. 250 Hz: every log time is a whole number of nanoseconds.
 pub const STEP_S: f64 = 0.004;

@@ -79,6 +79,13 @@ fn moved(aircraft: &Aircraft, state: &State, commands: &Commands) -> actuators::
     actuators::update(&aircraft.actuators, &aircraft.actuator_parts, &state.actuators, commands)
 }
 
+/// What can be observed of a state by itself, in a world that stands still: the controls are where they
+/// are, and no tick passes. It is what is seen before the first tick.
+pub fn observe(aircraft: &Aircraft, state: &State, world: &World) -> Outputs {
+    let inputs = Inputs { events: &[], world: World { paused: 1, ..*world } };
+    Outputs { tick: state.tick, ..step(aircraft, state, &inputs).1 }
+}
+
 /// Where everything is heading from a state: what moves once a tick after one tick, what moves all the
 /// time after a tick at the rates of the state itself, which are kept in `rate`.
 ///

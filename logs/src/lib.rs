@@ -14,12 +14,14 @@ pub mod compact;
 mod container;
 mod error;
 pub mod export;
+mod level;
 mod narrator;
 mod open;
 mod reader;
 pub mod records;
 mod recover;
 mod setup;
+pub mod text;
 pub mod view;
 mod writer;
 

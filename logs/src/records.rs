@@ -4,7 +4,7 @@ use engine::inputs::World;
 use engine::{STEP_NS, State};
 use serde::{Deserialize, Serialize};
 
-use crate::view::Level;
+use crate::level::Level;
 
 /// Version of the log's format: its records, channels and seals. The fields of a message are not part
 /// of it; each log names its own.

@@ -9,6 +9,7 @@ use engine::units::degrees;
 use engine::{Aircraft, Outputs};
 use serde::Serialize;
 
+pub use crate::level::Level;
 use crate::schema::{MessageType, RULE};
 use crate::{LogError, cdr};
 
@@ -154,18 +155,6 @@ pub struct Fix {
     altitude: f64,
     position_covariance: [f64; 9],
     position_covariance_type: u8,
-}
-
-/// Severity of a `/log` message.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Level {
-    /// As it should be.
-    Info = 20,
-    /// The crew should know.
-    Warn = 30,
-    /// Something is wrong.
-    Error = 40,
 }
 
 /// A `/log` message.

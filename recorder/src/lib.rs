@@ -5,9 +5,13 @@
 //! FlightGear. The loop waits for nothing but time.
 
 mod clock;
+mod crew;
 mod flight;
 mod hands;
+mod landing;
+mod live;
 pub mod pilots;
+mod progress;
 mod rehearsal;
 pub mod script;
 mod self_check;
@@ -17,8 +21,11 @@ pub mod sticks;
 pub mod writer;
 
 pub use clock::Pace;
-pub use flight::{Flight, FlyError, Landing, Progress, Snapshot, fly};
+pub use flight::{Flight, FlyError};
 pub use hands::{Hands, Reach};
+pub use landing::Landing;
+pub use live::fly;
+pub use progress::{Progress, Snapshot};
 pub use rehearsal::{RehearsedTick, rehearse};
 pub use self_check::{Checked, Mismatch};
 pub use writer::Delay;

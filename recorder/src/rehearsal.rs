@@ -4,9 +4,9 @@
 use analysis::{start::state_at, trim};
 use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
-use engine::{Aircraft, Inputs, Outputs, State, step};
+use engine::{Aircraft, Inputs, Outputs, State, observe, step};
 
-use crate::flight::Crew;
+use crate::crew::Crew;
 use crate::hands::Hands;
 
 /// One tick of a rehearsal.
@@ -37,7 +37,7 @@ pub fn rehearse(
 ) -> Result<(State, Outputs), trim::Failure> {
     let mut state = state_at(start, aircraft)?;
     let mut crew = Crew::new(hands, start.world.world());
-    let mut outputs = crew.first_look(aircraft, &state);
+    let mut outputs = observe(aircraft, &state, &crew.world);
     let mut events = Vec::new();
     while !crew.done && state.tick < ticks_max {
         events.clear();

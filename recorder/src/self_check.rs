@@ -21,8 +21,8 @@ use crate::statistics::Durations;
 
 /// Ticks reflown at a time: a second.
 const TICKS: usize = 250;
-/// Items the ring holds: five seconds and some, with three events a tick.
-const RING_ITEMS: usize = 4096;
+/// Events and ticks the ring holds: five seconds and some, with three events a tick.
+const RING_SIZE: usize = 4096;
 /// How often the thread looks for work.
 const NAP: Duration = Duration::from_millis(20);
 /// Mismatches told one by one; a broken machine need not fill the log.
@@ -81,14 +81,14 @@ impl SelfCheck {
         tell: Sender<Mismatch>,
         found: Arc<AtomicU64>,
     ) -> Self {
-        let (mut ring, mut items) = RingBuffer::new(RING_ITEMS);
+        let (mut ring, mut taken) = RingBuffer::new(RING_SIZE);
         // Every page is there before the loop meets it.
         while ring.push(ToRefly::Tick(World::default(), *initial)).is_ok() {}
-        while items.pop().is_ok() {}
+        while taken.pop().is_ok() {}
         let done = Arc::new(AtomicBool::new(false));
         let checker = Checker {
             aircraft: Box::new(aircraft.clone()),
-            items,
+            ring: taken,
             second: Second::from(initial),
             tell,
             found: Arc::clone(&found),
@@ -116,7 +116,7 @@ impl SelfCheck {
 
     /// Waits until half the ring is free; for flights that outrun time.
     pub fn wait_for_room(&self) {
-        while self.ring.slots() < RING_ITEMS / 2 && !self.thread.is_finished() {
+        while self.ring.slots() < RING_SIZE / 2 && !self.thread.is_finished() {
             thread::sleep(Duration::from_micros(100));
         }
     }
@@ -196,7 +196,7 @@ fn difference(reflown: &State, flown: &State) -> Mismatch {
 /// The thread's end.
 struct Checker {
     aircraft: Box<Aircraft>,
-    items: Consumer<ToRefly>,
+    ring: Consumer<ToRefly>,
     second: Second,
     tell: Sender<Mismatch>,
     found: Arc<AtomicU64>,
@@ -209,8 +209,8 @@ impl Checker {
         loop {
             // Looked at before draining: nothing is put after it is set.
             let last_round = done.load(Ordering::Acquire);
-            while let Ok(item) = self.items.pop() {
-                self.take(item);
+            while let Ok(handed) = self.ring.pop() {
+                self.take(handed);
             }
             if last_round {
                 self.check();
@@ -220,8 +220,8 @@ impl Checker {
         }
     }
 
-    fn take(&mut self, item: ToRefly) {
-        match item {
+    fn take(&mut self, handed: ToRefly) {
+        match handed {
             ToRefly::Event(event) => self.second.events.push(event),
             // A tick was dropped before this one: what is there so far is checked, and the next
             // second begins after the gap.

@@ -19,10 +19,10 @@ use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::self_check::Mismatch;
 
-/// Items the ring holds: three a tick, twenty seconds and some.
-const RING_ITEMS: usize = 16_384;
+/// Entries the ring holds: three a tick, twenty seconds and some.
+const RING_ENTRIES: usize = 16_384;
 /// Outputs the ring for viewers holds.
-const VIEW_ITEMS: usize = 256;
+const VIEW_OUTPUTS: usize = 256;
 /// Ticks between two outputs handed over for viewers.
 const VIEW_TICKS: u64 = 5;
 /// At most this much of a flight is lost when the program is killed, with room for a slow disk.
@@ -42,7 +42,7 @@ pub struct Delay {
     pub longest: Duration,
 }
 
-/// What the loop hands over, in order.
+/// An entry of the log, as the loop hands it over, in order.
 #[derive(Clone, Copy)]
 // The state is by far the largest and by far the most frequent.
 #[allow(clippy::large_enum_variant)]
@@ -69,20 +69,20 @@ pub struct Recording {
     thread: Option<JoinHandle<(Result<Closed, LogError>, Delay)>>,
     failed: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
-    /// Most items that ever waited.
+    /// Most entries that ever waited.
     pub backlog_max: usize,
 }
 
 impl Recording {
     /// Starts the thread; `mismatches` is what a self-check finds.
     pub fn start(writer: FlightWriter, initial: &State, mismatches: Receiver<Mismatch>) -> Self {
-        let (ring, items) = touched_ring(RING_ITEMS, ToRecord::State(*initial));
-        let (view, views) = touched_ring(VIEW_ITEMS, (Outputs::default(), Attitude::default()));
+        let (ring, entries) = touched_ring(RING_ENTRIES, ToRecord::State(*initial));
+        let (view, views) = touched_ring(VIEW_OUTPUTS, (Outputs::default(), Attitude::default()));
         let failed = Arc::new(AtomicBool::new(false));
         let done = Arc::new(AtomicBool::new(false));
         let scribe = Scribe {
             writer: Some(writer),
-            items,
+            entries,
             views,
             narrator: Narrator::new(initial),
             mismatches,
@@ -105,8 +105,8 @@ impl Recording {
         }
     }
 
-    /// Hands an item over. Never waits, never drops.
-    pub fn put(&mut self, item: ToRecord) {
+    /// Hands an entry over. Never waits, never drops.
+    pub fn put(&mut self, entry: ToRecord) {
         while let Some(waiting) = self.overflow.pop_front() {
             if let Err(PushError::Full(waiting)) = self.ring.push(waiting) {
                 self.overflow.push_front(waiting);
@@ -114,13 +114,13 @@ impl Recording {
             }
         }
         if self.overflow.is_empty() {
-            if let Err(PushError::Full(item)) = self.ring.push(item) {
-                self.overflow.push_back(item);
+            if let Err(PushError::Full(entry)) = self.ring.push(entry) {
+                self.overflow.push_back(entry);
             }
         } else {
-            self.overflow.push_back(item);
+            self.overflow.push_back(entry);
         }
-        let waiting = RING_ITEMS - self.ring.slots() + self.overflow.len();
+        let waiting = RING_ENTRIES - self.ring.slots() + self.overflow.len();
         self.backlog_max = self.backlog_max.max(waiting);
     }
 
@@ -133,7 +133,7 @@ impl Recording {
 
     /// Waits until the writer has caught up to half a ring; for flights that outrun time.
     pub fn wait_for_room(&self) {
-        while self.ring.slots() < RING_ITEMS / 2 || self.view.slots() == 0 {
+        while self.ring.slots() < RING_ENTRIES / 2 || self.view.slots() == 0 {
             if self.has_failed() {
                 return;
             }
@@ -149,9 +149,9 @@ impl Recording {
     /// Ends the log: what became of it or what stopped the writer, and how it was held up.
     pub fn finish(mut self) -> (Result<Closed, LogError>, Delay) {
         while let Some(waiting) = self.overflow.pop_front() {
-            let mut item = waiting;
-            while let Err(PushError::Full(back)) = self.ring.push(item) {
-                item = back;
+            let mut entry = waiting;
+            while let Err(PushError::Full(back)) = self.ring.push(entry) {
+                entry = back;
                 thread::sleep(NAP);
             }
         }
@@ -162,9 +162,9 @@ impl Recording {
 }
 
 /// A ring whose every slot has been written once: the loop meets no page that is not there yet.
-fn touched_ring<T: Copy>(capacity: usize, item: T) -> (Producer<T>, Consumer<T>) {
+fn touched_ring<T: Copy>(capacity: usize, entry: T) -> (Producer<T>, Consumer<T>) {
     let (mut producer, mut consumer) = RingBuffer::new(capacity);
-    while producer.push(item).is_ok() {}
+    while producer.push(entry).is_ok() {}
     while consumer.pop().is_ok() {}
     (producer, consumer)
 }
@@ -176,7 +176,7 @@ fn writer_died() -> LogError {
 /// The thread's end.
 struct Scribe {
     writer: Option<FlightWriter>,
-    items: Consumer<ToRecord>,
+    entries: Consumer<ToRecord>,
     views: Consumer<(Outputs, Attitude)>,
     narrator: Narrator,
     mismatches: Receiver<Mismatch>,
@@ -218,8 +218,8 @@ impl Scribe {
     }
 
     fn drain(&mut self) {
-        while let Ok(item) = self.items.pop() {
-            let written = self.write(&item);
+        while let Ok(entry) = self.entries.pop() {
+            let written = self.write(&entry);
             self.keep(written);
             self.look_at_the_clock();
         }
@@ -244,10 +244,10 @@ impl Scribe {
         }
         self.delay.times += 1;
         self.delay.longest = self.delay.longest.max(took);
-        let waiting = self.items.slots();
+        let waiting = self.entries.slots();
         let Some(writer) = self.writer.as_mut() else { return };
         let words = format!(
-            "the log's writer was held up for {:.1} s; {waiting} items waited, none was lost",
+            "the log's writer was held up for {:.1} s; {waiting} entries waited, none was lost",
             took.as_secs_f64()
         );
         let (what, ms) = (Happening::WriterHeldUp, took.as_millis() as u64);
@@ -265,9 +265,9 @@ impl Scribe {
         writer.happened(*tick, Happening::SelfCheck, *fields, &words)
     }
 
-    fn write(&mut self, item: &ToRecord) -> Result<(), LogError> {
+    fn write(&mut self, entry: &ToRecord) -> Result<(), LogError> {
         let Some(writer) = self.writer.as_mut() else { return Ok(()) };
-        match item {
+        match entry {
             ToRecord::Event(event) => {
                 writer.event(event)?;
                 self.narrator.event(writer, event)

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use engine::math::sqrt;
 use engine::{STEP_S, State};
+use logs::text::at;
 use logs::{Ending, Identity, LogError, OpenOptions, cdr};
 
 use crate::compare::Names;
@@ -243,7 +244,7 @@ impl fmt::Display for Moved {
             )
         };
         match self.first_tick {
-            Some(first) => writeln!(f, "moved from tick {first} ({:.3} s) on{every}", s(first))?,
+            Some(first) => writeln!(f, "moved from {} on{every}", at(first))?,
             None => writeln!(f, "no state moved{every}; what it is flown with did")?,
         }
         if self.models.0 != self.models.1 {

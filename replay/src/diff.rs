@@ -7,10 +7,12 @@ use engine::State;
 use engine::inputs::DeviceEvent;
 use logs::fields::Value;
 use logs::records::InputsRecord;
-use logs::{Ending, FlightReader, LogError, Setup, cdr};
+use logs::{FlightReader, LogError, Setup, cdr};
 
 use crate::compare::{Difference, Names};
 use crate::divergence::{Divergence, LastInput, Parted};
+use crate::judgement::{End, Facts, Judgement};
+use crate::refly::Window;
 
 /// Two logs beside each other.
 #[derive(Debug)]
@@ -46,10 +48,10 @@ pub struct Side {
     pub last_tick: u64,
     /// Digest of its last tick.
     pub digest: u64,
-    /// How it ends.
-    pub ending: Ending,
-    /// Messages that do not make a flight, from which on nothing was compared.
-    pub disorder: Option<String>,
+    /// How its reading ended: where that was not as it should be, nothing was compared from there on.
+    pub end: End,
+    /// What it is, as far as reading shows.
+    pub judgement: Judgement,
 }
 
 /// A value by name that is not the same.
@@ -130,9 +132,7 @@ impl Diff {
 
     /// Whether both could be read to their end.
     pub fn usable(&self) -> bool {
-        [&self.a, &self.b]
-            .iter()
-            .all(|side| side.disorder.is_none() && !matches!(side.ending, Ending::Damaged(_)))
+        [&self.a, &self.b].iter().all(|side| side.end.is_readable())
     }
 
     /// Whether the states differ from the first one that both have.
@@ -202,6 +202,7 @@ pub(crate) struct Cursor {
     pub(crate) reader: FlightReader,
     start_tick: u64,
     last: (u64, u64),
+    facts: Facts,
     disorder: Option<String>,
     pub(crate) now: Option<At>,
 }
@@ -211,7 +212,8 @@ impl Cursor {
         let reader = logs::open(path, crate::refly::OPEN)?;
         let (tick, state) = (reader.initial.tick, cdr::encode(&reader.initial)?);
         let now = Some(At { tick, state, led: None });
-        Ok(Self { reader, start_tick: tick, last: (tick, 0), disorder: None, now })
+        let facts = Facts::of_reading(&reader);
+        Ok(Self { reader, start_tick: tick, last: (tick, 0), facts, disorder: None, now })
     }
 
     pub(crate) fn advance(&mut self) {
@@ -220,6 +222,7 @@ impl Cursor {
                 self.last = (tick.record.state.tick, tick.record.digest);
                 let led = Some((tick.events.clone(), tick.inputs));
                 let now = At { tick: self.last.0, state: tick.state_message.clone(), led };
+                self.facts.add(tick, None);
                 self.reader.timings.clear();
                 Some(now)
             }
@@ -236,12 +239,13 @@ impl Cursor {
         while self.now.is_some() {
             self.advance();
         }
+        self.facts.end(&self.reader, self.disorder, &Window::default());
         Side {
             start_tick: self.start_tick,
             last_tick: self.last.0,
             digest: self.last.1,
-            ending: self.reader.ending().cloned().unwrap_or(Ending::Truncated),
-            disorder: self.disorder,
+            judgement: self.facts.judge(),
+            end: self.facts.end,
         }
     }
 }

@@ -1,13 +1,9 @@
 //! Where a reflown flight stops being the recorded one, and what became of it.
 
-use std::fmt;
-
-use engine::STEP_S;
 use engine::cockpit::Params as Cockpit;
 use engine::inputs::{DeviceEvent, EventKind};
 use logs::fields::Value;
 use logs::records::InputsRecord;
-use logs::units::with_unit;
 use logs::{LogError, cdr};
 
 use crate::compare::Names;
@@ -277,97 +273,5 @@ fn count(counts: &mut Vec<(Stage, u64)>, stage: Stage) {
             counts.push((stage, 1));
             counts.sort_by_key(|(stage, _)| *stage);
         }
-    }
-}
-
-/// `tick 5 (0.020 s)`.
-pub(crate) fn when(tick: u64) -> String {
-    format!("tick {tick} ({:.3} s)", tick as f64 * STEP_S)
-}
-
-fn apart(recorded: Value, reflown: Value) -> String {
-    recorded.ulps_to(reflown).map_or("?".into(), |ulps| ulps.to_string())
-}
-
-fn counted(stages: &[(Stage, u64)]) -> String {
-    let each: Vec<_> =
-        stages.iter().map(|(stage, number)| format!("{} {number}", stage.name())).collect();
-    each.join(", ")
-}
-
-impl fmt::Display for Divergence {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "first difference: {}", when(self.tick))?;
-        let stage = self.stage.map_or("(not known here)", Stage::name);
-        write!(f, "  stage     {stage}")?;
-        match self.stage.and_then(Stage::or_before) {
-            Some(before) => writeln!(f, ", or before it {before}")?,
-            None => writeln!(f)?,
-        }
-        if let Some(block) = &self.single.block {
-            writeln!(
-                f,
-                "  block     {}: {} at {}, recorded {}, reflown {}, {} ULP apart",
-                block.stage.name(),
-                block.path,
-                when(block.tick),
-                with_unit(block.recorded, &block.unit),
-                with_unit(block.reflown, &block.unit),
-                apart(block.recorded, block.reflown)
-            )?;
-        } else if self.single.outputs > 0 {
-            writeln!(
-                f,
-                "  block     none: at {} ticks every block gives what was recorded",
-                self.single.outputs
-            )?;
-        }
-        writeln!(f, "  field     {}", self.path)?;
-        for (name, value) in [("recorded", self.recorded), ("reflown", self.reflown)] {
-            let told = with_unit(value, &self.unit);
-            writeln!(f, "  {name:<9} {told}  (0x{:016x})", value.bits())?;
-        }
-        writeln!(f, "  apart     {} ULP", apart(self.recorded, self.reflown))?;
-        writeln!(
-            f,
-            "  others    {} more fields differ at this tick; by stage: {}",
-            self.others,
-            counted(&self.stages)
-        )?;
-        match &self.last_input {
-            None => writeln!(f, "  last input: none before it")?,
-            Some(input) => writeln!(f, "  last input: {input}")?,
-        }
-        write_single(f, &self.single)?;
-        write!(f, "{}", self.growth)
-    }
-}
-
-fn write_single(f: &mut fmt::Formatter<'_>, single: &SingleSteps) -> fmt::Result {
-    let SingleSteps { ticks, differing, first_stages, .. } = single;
-    writeln!(
-        f,
-        "  one step  from each recorded state: {differing} of {ticks} do not lead to the next one{}{}",
-        if first_stages.is_empty() { "" } else { "; first to differ: " },
-        counted(first_stages)
-    )
-}
-
-impl fmt::Display for InputChange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Device { event, moves } => {
-                let kind = EventKind::from_u64(event.kind).map_or("event", |kind| kind.facts().key);
-                let DeviceEvent { device, code, value, .. } = event;
-                write!(f, "device {device} {kind} 0x{code:x} = {value}")?;
-                if !moves.is_empty() {
-                    write!(f, " ({moves})")?;
-                }
-            }
-            Self::World { path, unit, from, to, .. } => {
-                write!(f, "{path} from {} to {}", with_unit(*from, unit), with_unit(*to, unit))?;
-            }
-        }
-        write!(f, ", for {}", when(self.led_to_tick()))
     }
 }

@@ -1,21 +1,17 @@
 //! How the difference between two flights grows from where it begins.
 
-use std::fmt;
-
 use engine::math::ln;
 use engine::{STEP_S, State};
 use logs::LogError;
-use logs::units::unit_of;
 
 use crate::compare::{Names, group_of};
-use crate::divergence::when;
 
 /// When it is looked at, in seconds after the first difference.
-pub const MOMENTS_S: [u64; 5] = [0, 1, 2, 5, 10];
+pub const CHECKPOINTS_S: [u64; 5] = [0, 1, 2, 5, 10];
 /// Ticks a second.
 const RATE: u64 = 250;
 /// Ticks from the first difference to the last look.
-pub const WINDOW_TICKS: u64 = MOMENTS_S[MOMENTS_S.len() - 1] * RATE;
+pub const WINDOW_TICKS: u64 = CHECKPOINTS_S[CHECKPOINTS_S.len() - 1] * RATE;
 /// Ticks between the samples that the growth is fitted to.
 const SAMPLE_TICKS: u64 = 25;
 /// Fewer samples than this say nothing about growth: a second.
@@ -23,7 +19,7 @@ const SAMPLES_MIN: usize = 10;
 /// What is sampled.
 const SAMPLED: &str = "plant.velocity_mps";
 
-/// The differences in one quantity at one moment.
+/// The differences in one quantity at one checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupDifference {
     /// Path without axes and sides.
@@ -36,9 +32,9 @@ pub struct GroupDifference {
     pub ulps: u64,
 }
 
-/// Everything at one moment.
+/// Everything at one checkpoint.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct Checkpoint {
     /// After the first difference.
     pub after_s: u64,
     /// When.
@@ -49,7 +45,7 @@ pub struct Sample {
     pub groups: Vec<GroupDifference>,
 }
 
-impl Sample {
+impl Checkpoint {
     /// A quantity, if it differs.
     pub fn group(&self, group: &str) -> Option<&GroupDifference> {
         self.groups.iter().find(|known| known.group == group)
@@ -71,7 +67,7 @@ pub struct Growth {
     /// From where on everything is the same again, if it is.
     pub same_from: Option<u64>,
     /// Looks at it.
-    pub moments: Vec<Sample>,
+    pub checkpoints: Vec<Checkpoint>,
     /// Seconds after the first difference, and logarithm to base 2 of the velocities' difference.
     samples: Vec<(f64, f64)>,
 }
@@ -90,7 +86,7 @@ impl Growth {
             last_tick: first_tick,
             differing_ticks: 0,
             same_from: None,
-            moments: Vec::new(),
+            checkpoints: Vec::new(),
             samples: Vec::new(),
         })
     }
@@ -108,13 +104,13 @@ impl Growth {
         if after <= WINDOW_TICKS && after.is_multiple_of(SAMPLE_TICKS) {
             self.sample(after, a, b);
         }
-        if let Some(&after_s) = MOMENTS_S.iter().find(|after_s| *after_s * RATE == after) {
-            let moment = self.look(after_s, tick, a, b);
-            self.moments.push(moment);
+        if let Some(&after_s) = CHECKPOINTS_S.iter().find(|after_s| *after_s * RATE == after) {
+            let checkpoint = self.look(after_s, tick, a, b);
+            self.checkpoints.push(checkpoint);
         }
     }
 
-    fn look(&self, after_s: u64, tick: u64, a: &[u8], b: &[u8]) -> Sample {
+    fn look(&self, after_s: u64, tick: u64, a: &[u8], b: &[u8]) -> Checkpoint {
         let mut groups: Vec<Option<GroupDifference>> = vec![None; self.names.groups.len()];
         let mut fields = 0;
         for difference in self.names.differences(a, b) {
@@ -129,7 +125,7 @@ impl Growth {
             group.absolute = engine::math::max(group.absolute, difference.absolute());
             group.ulps = group.ulps.max(difference.ulps());
         }
-        Sample { after_s, tick, fields, groups: groups.into_iter().flatten().collect() }
+        Checkpoint { after_s, tick, fields, groups: groups.into_iter().flatten().collect() }
     }
 
     fn sample(&mut self, after: u64, a: &[u8], b: &[u8]) {
@@ -163,52 +159,6 @@ impl Growth {
     }
 }
 
-/// What is shown of the motion; the rest is in the JSON form.
-const SHOWN: [&str; 5] = [
-    "plant.position_m",
-    "plant.velocity_mps",
-    "plant.attitude",
-    "plant.angular_rate_radps",
-    "plant.rotor_speed_radps",
-];
-
-/// As a table: a line a quantity, a column a moment.
-impl fmt::Display for Growth {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let line = |f: &mut fmt::Formatter<'_>, name: &str, of: &dyn Fn(&Sample) -> String| {
-            write!(f, "\n    {name:<33}")?;
-            self.moments.iter().try_for_each(|moment| write!(f, " {:>11}", of(moment)))
-        };
-        write!(f, "  growth")?;
-        line(f, "after", &|moment| format!("{} s", moment.after_s))?;
-        line(f, "fields that differ", &|moment| moment.fields.to_string())?;
-        line(f, &format!("{}, ULP", self.first_group), &|moment| {
-            let ulps = moment.group(&self.first_group).map_or(0, |group| group.ulps);
-            if ulps < 1_000_000 { ulps.to_string() } else { format!("{:.1e}", ulps as f64) }
-        })?;
-        let first = Some(self.first_group.as_str()).filter(|first| !SHOWN.contains(first));
-        for group in first.into_iter().chain(SHOWN) {
-            let unit = unit_of(group);
-            let name = if unit.is_empty() { group.to_string() } else { format!("{group}, {unit}") };
-            line(f, &name, &|moment| {
-                let found = moment.group(group);
-                found.map_or("0".into(), |found| format!("{:.2e}", found.absolute))
-            })?;
-        }
-        match (self.same_from, self.doubling_s()) {
-            (Some(tick), _) => write!(f, "\n    the same again from {} on", when(tick)),
-            (None, Some(doubling_s)) => write!(
-                f,
-                "\n    the velocities' difference doubles every {doubling_s:.3} s (fitted over {:.1} s)",
-                self.last_tick.saturating_sub(self.first_tick).min(WINDOW_TICKS) as f64 * STEP_S
-            ),
-            (None, None) => {
-                write!(f, "\n    no doubling time: it does not grow, or there is too little of it")
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -238,9 +188,10 @@ mod tests {
     #[test]
     fn it_is_looked_at_after_whole_seconds() {
         let growth = parting(2501);
-        let seen: Vec<u64> = growth.moments.iter().map(|moment| moment.after_s).collect();
-        assert_eq!(seen, MOMENTS_S);
-        let after_one = &growth.moments[1];
+        let seen: Vec<u64> =
+            growth.checkpoints.iter().map(|checkpoint| checkpoint.after_s).collect();
+        assert_eq!(seen, CHECKPOINTS_S);
+        let after_one = &growth.checkpoints[1];
         assert_eq!((after_one.tick, after_one.fields), (350, 1));
         assert!((after_one.groups[0].absolute - 4e-9).abs() < 1e-15, "{after_one:?}");
         assert_eq!(after_one.groups[0].unit, "m/s");

@@ -2,9 +2,11 @@
 
 mod bless;
 pub mod compare;
+mod diagnosis;
 mod diff;
 mod divergence;
 pub mod growth;
+pub mod judgement;
 mod refly;
 mod rewrite;
 mod stage;
@@ -13,15 +15,17 @@ mod verify;
 mod versions;
 #[cfg(feature = "rerun")]
 pub mod view;
+mod words;
 
 pub use bless::{KEYFRAME_TICKS, Largest, Moved, beside, bless};
 pub use diff::{
     Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
 };
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
+pub use judgement::{End, Facts, Judgement, Outcome};
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
 pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};
-pub use verify::{Options, Outcome, Verdict, verify};
+pub use verify::{Options, Verdict, verify};
 pub use versions::Versions;

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use engine::inputs::World;
-use engine::{Aircraft, Inputs, Outputs, State, step};
+use engine::{Inputs, Outputs, State, observe, step};
 use logs::records::{EventRecord, Happening};
 use logs::view::Remark;
 use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Setup, Tick};
@@ -95,7 +94,8 @@ pub fn rewrite(
         let mut narrator = Narrator::new(initial);
         let mut state = *initial;
         if state.tick == 0 {
-            show_start(&mut writer, aircraft, &state, flown.world)?;
+            let seen = observe(aircraft, &state, &flown.world);
+            writer.view(&seen, state.plant.attitude)?;
         }
         while reader.next_tick()?.is_some() {
             let tick = &reader.tick;
@@ -137,18 +137,6 @@ pub fn rewrite(
         let _ = std::fs::remove_file(new.out);
     }
     Ok(Rewritten { closed: closed?, touchdown_ticks })
-}
-
-/// What there was to be seen before the first tick.
-fn show_start(
-    writer: &mut FlightWriter,
-    aircraft: &Aircraft,
-    state: &State,
-    world: World,
-) -> Result<(), LogError> {
-    let inputs = Inputs { events: &[], world: World { paused: 1, ..world } };
-    let outputs = Outputs { tick: state.tick, ..step(aircraft, state, &inputs).1 };
-    writer.view(&outputs, state.plant.attitude)
 }
 
 /// Takes over what only the crew could know; everything else is told anew from the numbers.

@@ -9,6 +9,7 @@ use engine::units::{DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RP
 use engine::{Outputs, STEP_S, State};
 use logs::view::Remark;
 
+use crate::judgement::{Facts, Judgement, Outcome, disorder};
 use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
 
 /// Names of the extremes, their units, and how they are read off.
@@ -116,8 +117,8 @@ pub struct Summary {
     pub gathered: Gathered,
     /// Last digest.
     pub digest: u64,
-    /// Whether all of it reflies to the same bits.
-    pub exact: bool,
+    /// What the log is.
+    pub judgement: Judgement,
 }
 
 /// Reflies a log, or a part of it, and sums it up.
@@ -128,16 +129,31 @@ pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
     let options = ReflyOptions { window: *window, across_versions: false };
     let mut flight = Reflight::open(log, &options)?;
     let mut gathered = Gathered::from(&flight.state);
-    let mut exact = true;
+    let mut facts = Facts::of_reflight(&flight);
     let first_tick = flight.state.tick;
-    while let Some(reflown) = flight.next_tick()? {
-        gathered.add(reflown.state, reflown.outputs);
-        exact &= reflown.exact && reflown.recorded.chained;
-        flight.reader.timings.clear();
-    }
+    let disorder = loop {
+        match flight.next_tick() {
+            Ok(Some(reflown)) => {
+                gathered.add(reflown.state, reflown.outputs);
+                facts.add(reflown.recorded, Some(reflown.exact));
+                flight.reader.timings.clear();
+            }
+            Ok(None) => break None,
+            Err(error) => break Some(disorder(error)?),
+        }
+    };
+    facts.end(&flight.reader, disorder, window);
+    facts.comparison = flight.versions().is_some_and(|versions| versions.comparison());
     let remarks = std::mem::take(&mut flight.reader.remarks);
     let digest = flight.reader.digest();
-    Ok(Summary { first_tick, last: flight.state, remarks, gathered, digest, exact })
+    Ok(Summary {
+        first_tick,
+        last: flight.state,
+        remarks,
+        gathered,
+        digest,
+        judgement: facts.judge(),
+    })
 }
 
 fn s(tick: u64) -> f64 {
@@ -184,8 +200,11 @@ impl fmt::Display for Summary {
             (euler.heading_rad * DEG).rem_euclid(360.0),
             at.fuel_kg
         )?;
-        let exact = if self.exact { "exact" } else { "NOT EXACT: `tiltrotor verify` says more" };
-        write!(f, "digest         {:016x}, {exact}", self.digest)
+        write!(f, "digest         {:016x}, ", self.digest)?;
+        match self.judgement.outcome {
+            Outcome::Exact => write!(f, "exact"),
+            _ => write!(f, "{}; `tiltrotor verify` says more", self.judgement),
+        }
     }
 }
 

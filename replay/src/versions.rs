@@ -1,7 +1,5 @@
 //! What stands between the version that wrote a log and this one.
 
-use std::fmt;
-
 use logs::Identity;
 use logs::evolution::Difference;
 use logs::records::STATE;
@@ -47,43 +45,5 @@ impl Versions {
         self.recorded_model != self.model
             || !self.notes.is_empty()
             || self.differences.iter().any(unknown)
-    }
-}
-
-impl fmt::Display for Versions {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { recorded_model, model, differences, notes } = self;
-        if recorded_model == model {
-            write!(f, "read by the names of its fields: flight model {model}, in another layout")?;
-        } else {
-            write!(
-                f,
-                "a comparison, and never exact: recorded by flight model {recorded_model}, flown by {model}"
-            )?;
-        }
-        for (topic, Difference { missing, ignored }) in differences {
-            if !missing.is_empty() {
-                write!(f, "\n  {topic} of the log lacks {}", listed(missing))?;
-            }
-            if !ignored.is_empty() {
-                write!(
-                    f,
-                    "\n  {topic} of the log has, and nobody knows today, {}",
-                    listed(ignored)
-                )?;
-            }
-        }
-        notes.iter().try_for_each(|note| write!(f, "\n  {note}"))
-    }
-}
-
-/// So many names are told; the rest are counted.
-const NAMES_TOLD: usize = 8;
-
-fn listed(names: &[String]) -> String {
-    let told = names.iter().take(NAMES_TOLD).map(String::as_str).collect::<Vec<_>>().join(", ");
-    match names.len().saturating_sub(NAMES_TOLD) {
-        0 => told,
-        more => format!("{told} and {more} more"),
     }
 }

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_NS;
@@ -15,7 +14,7 @@ use logs::{Ending, Messages};
 use replay::Window;
 use wildmatch::WildMatch;
 
-use crate::report;
+use crate::status::Status;
 use crate::window::WindowArgs;
 
 /// What to print.
@@ -41,7 +40,7 @@ pub struct Args {
 type Choice = Option<Vec<(usize, String)>>;
 
 /// Prints every number that is wanted, a line of JSON a message.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let globs = |globs: &[String]| globs.iter().map(|g| WildMatch::new(g)).collect::<Vec<_>>();
     let (channels, fields) = (globs(&args.channel), globs(&args.field));
     let mut choices: BTreeMap<String, Choice> = BTreeMap::new();
@@ -85,15 +84,15 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         line.push_str("}\n");
         if out.write_all(line.as_bytes()).is_err() {
             // Whoever closes the pipe early, as `head` does, has seen enough.
-            return Ok(ExitCode::SUCCESS);
+            return Ok(Status::Done);
         }
     }
     if out.flush().is_err() {
-        return Ok(ExitCode::SUCCESS);
+        return Ok(Status::Done);
     }
     if let Ending::Damaged(why) = messages.ending() {
         complain!("tiltrotor: {name}: {why}");
-        return Ok(ExitCode::from(report::UNUSABLE));
+        return Ok(Status::Unusable);
     }
     if choices.is_empty() {
         bail!("{name}: no recorded channel in it");
@@ -103,8 +102,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         bail!("{name}: no such channel or field in it; its channels are {}", there.join(", "));
     }
     Ok(match messages.ending() {
-        Ending::Closed => ExitCode::SUCCESS,
-        _ => ExitCode::from(report::NEVER_CLOSED),
+        Ending::Closed => Status::Done,
+        _ => Status::NeverClosed,
     })
 }
 

@@ -1,14 +1,14 @@
 //! `tiltrotor log compact` and `log expand`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::compact::{self, Copied};
+use logs::text::{at, size};
 
-use crate::report;
+use crate::status::Status;
 use crate::whatif::refuse_itself;
 
 /// Seconds between two states that are kept: an eighth of what is kept at all, and soon flown.
@@ -44,7 +44,7 @@ pub struct ExpandArgs {
 }
 
 /// Compacts.
-pub fn compact(args: &CompactArgs) -> Result<ExitCode> {
+pub fn compact(args: &CompactArgs) -> Result<Status> {
     let keyframe_ticks = (args.keyframes / STEP_S).round();
     if !(1.0..=250_000.0).contains(&keyframe_ticks) {
         bail!("--keyframes {}: expected {STEP_S} s (one tick) to 1000 s", args.keyframes);
@@ -57,18 +57,18 @@ pub fn compact(args: &CompactArgs) -> Result<ExitCode> {
     })?;
     let ticks = copied.states.saturating_sub(1);
     say!(
-        "{}: {:.3} MB of {:.3} MB, {:.1} B a tick; {ticks} ticks ({:.1} s) flown again to the same bits",
+        "{}: {} of {}, {:.1} B a tick; {ticks} ticks ({:.1} s) flown again to the same bits",
         out.display(),
-        copied.bytes as f64 * 1e-6,
-        copied.bytes_before as f64 * 1e-6,
+        size(copied.bytes),
+        size(copied.bytes_before),
         copied.bytes as f64 / ticks.max(1) as f64,
         ticks as f64 * STEP_S
     );
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 /// Expands.
-pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
+pub fn expand(args: &ExpandArgs) -> Result<Status> {
     let stem = stem(&args.log);
     let name = match stem.strip_suffix("-compact") {
         Some(before) => format!("{before}.mcap"),
@@ -89,18 +89,18 @@ pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
     }
     let ticks = copied.states.saturating_sub(1);
     say!(
-        "{}: {:.3} MB, {ticks} ticks ({:.1} s)",
+        "{}: {}, {ticks} ticks ({:.1} s)",
         out.display(),
-        copied.bytes as f64 * 1e-6,
+        size(copied.bytes),
         ticks as f64 * STEP_S
     );
     if let Some(tick) = broken {
         complain!(
-            "tiltrotor: {}: not what was compacted: the digest breaks at tick {tick} ({:.3} s)",
+            "tiltrotor: {}: not what was compacted: the digest breaks at {}",
             out.display(),
-            tick as f64 * STEP_S
+            at(tick)
         );
-        return Ok(ExitCode::from(report::DIVERGED));
+        return Ok(Status::Differs);
     }
     say!(
         "every digest follows from the states that were flown again, last {:016x}",
@@ -113,7 +113,7 @@ pub fn expand(args: &ExpandArgs) -> Result<ExitCode> {
              had put it together"
         ),
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 /// Carries it out with a line of progress on a terminal; when it fails, no file is left.

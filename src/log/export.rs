@@ -1,14 +1,14 @@
 //! `tiltrotor log export`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Ending;
 use logs::export::{Exported, Form, export};
+use logs::text::size;
 
-use crate::report;
+use crate::status::Status;
 
 /// What to export, and where to.
 #[derive(clap::Args)]
@@ -28,14 +28,14 @@ pub struct Args {
 }
 
 /// Exports every log; the worst outcome is the exit status.
-pub fn run(args: &Args) -> Result<ExitCode> {
-    let mut worst = 0;
+pub fn run(args: &Args) -> Result<Status> {
+    let mut statuses = Vec::new();
     for (folder, form) in forms(args)? {
         for log in &args.logs {
-            worst = worst.max(one(log, folder, form, args.force));
+            statuses.push(one(log, folder, form, args.force));
         }
     }
-    Ok(ExitCode::from(worst))
+    Ok(Status::gravest(statuses))
 }
 
 fn forms(args: &Args) -> Result<Vec<(&Path, Form)>> {
@@ -56,7 +56,7 @@ fn forms(args: &Args) -> Result<Vec<(&Path, Form)>> {
 }
 
 /// Exports a log, says what became of it, and returns the exit status.
-fn one(log: &Path, folder: &Path, form: Form, force: bool) -> u8 {
+fn one(log: &Path, folder: &Path, form: Form, force: bool) -> Status {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
         bar.set_style(style);
@@ -74,7 +74,7 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> u8 {
     match exported {
         Ok(Exported { flight, rows, .. }) if rows.is_empty() => {
             say!("{}: {flight} is there already; --force exports it anew", log.display());
-            0
+            Status::Done
         }
         Ok(Exported { flight, rows, bytes, ending }) => {
             let rows: Vec<_> = rows
@@ -82,27 +82,22 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> u8 {
                 .filter(|(table, _)| *table != "flights")
                 .map(|(table, rows)| format!("{table} {rows}"))
                 .collect();
-            say!(
-                "{}: {flight}, {:.1} MB, rows: {}",
-                log.display(),
-                bytes as f64 * 1e-6,
-                rows.join(", ")
-            );
+            say!("{}: {flight}, {}, rows: {}", log.display(), size(bytes), rows.join(", "));
             match ending {
-                Ending::Closed => 0,
+                Ending::Closed => Status::Done,
                 Ending::Truncated => {
                     say!("  it ends there without having been closed");
-                    report::NEVER_CLOSED
+                    Status::NeverClosed
                 }
                 Ending::Damaged(why) => {
                     complain!("tiltrotor: {}: damaged after that: {why}", log.display());
-                    report::UNUSABLE
+                    Status::Unusable
                 }
             }
         }
         Err(error) => {
             complain!("tiltrotor: {}: {error}", log.display());
-            report::UNUSABLE
+            Status::Unusable
         }
     }
 }

@@ -3,13 +3,14 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
+use logs::text::{at, size};
 use replay::{KEYFRAME_TICKS, NewLog, Window, beside, names_parent, parent, rewrite};
 
 use crate::identity;
+use crate::status::Status;
 use crate::whatif::refuse_itself;
 use crate::window::WindowArgs;
 
@@ -41,7 +42,7 @@ pub struct Args {
 }
 
 /// Cuts the part out, flies it, and writes it.
-pub fn run(args: &Args) -> Result<ExitCode> {
+pub fn run(args: &Args) -> Result<Status> {
     let window = args.window.of(&args.log)?;
     let Some(name) = &args.as_golden else {
         let stem = args.log.file_stem().unwrap_or_default().display().to_string();
@@ -49,7 +50,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         let out = args.out.clone().unwrap_or_else(|| args.log.with_file_name(name));
         let (ticks, bytes) = cut(args, &window, &out, args.force, true)?;
         told(&out, ticks, bytes);
-        return Ok(ExitCode::SUCCESS);
+        return Ok(Status::Done);
     };
     let letters = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || !name.chars().all(letters) {
@@ -78,19 +79,20 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let (ticks, bytes) = made?;
     told(&out, ticks, bytes);
     if bytes > GOLDEN_BYTES_MAX {
-        let kb = GOLDEN_BYTES_MAX as f64 * 1e-3;
-        complain!("tiltrotor: that is more than {kb:.0} kB: a shorter window would do as well");
+        let most = size(GOLDEN_BYTES_MAX);
+        complain!("tiltrotor: that is more than {most}: a shorter window would do as well");
     }
     enter(&folder.join("README.md"), name, reason)?;
     say!("`cargo test --no-default-features --test golden` verifies it");
-    Ok(ExitCode::SUCCESS)
+    Ok(Status::Done)
 }
 
 fn told(out: &Path, ticks: u64, bytes: u64) {
-    let (flown_s, kb) = (ticks as f64 * STEP_S, bytes as f64 * 1e-3);
     say!(
-        "{}: {ticks} ticks ({flown_s:.3} s), {kb:.1} kB, flown to the recorded bits",
-        out.display()
+        "{}: {ticks} ticks ({:.3} s), {}, flown to the recorded bits",
+        out.display(),
+        ticks as f64 * STEP_S,
+        size(bytes)
     );
 }
 
@@ -121,10 +123,10 @@ fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> R
     if let Some(tick) = wrong {
         let _ = fs::remove_file(out);
         bail!(
-            "{}: not cut: from tick {tick} ({:.3} s) on it does not refly to the recorded bits; \
-             `tiltrotor verify` says more",
+            "{}: not cut: from {} on it does not refly to the recorded bits; `tiltrotor verify` says \
+             more",
             name(),
-            tick as f64 * STEP_S
+            at(tick)
         );
     }
     if ticks == 0 {

@@ -1,35 +1,30 @@
-//! The report of `verify` for programs.
+//! The report of `verify` for programs: JSON and JUnit.
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
 use logs::evolution::Difference;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
-use replay::{Verdict, Versions};
+use replay::{Outcome, Verdict, Versions};
 use serde_json::{Value, json};
 
 use super::{Run, Verified};
 use crate::json;
+use crate::status::Status;
 
 /// As `docs/reports.md` has it. Names are added with time, but not taken away or given another sense
 /// under the same version.
 pub fn json(run: &Run) -> Value {
+    let mut count = serde_json::Map::from_iter([("logs".into(), json!(run.logs.len()))]);
+    count.extend(Outcome::ALL.map(|outcome| (outcome.name().into(), json!(run.count(outcome)))));
     json!({
         "report": "tiltrotor verify",
-        "version": 1,
-        "status": run.status(),
+        "version": 2,
+        "status": run.status().number(),
         "jobs": run.jobs,
         "shard": run.shard.map(|shard| shard.to_string()),
         "took_s": run.took.as_secs_f64(),
         "flown_s": run.flown_s(),
-        "count": {
-            "logs": run.logs.len(),
-            "exact": run.count("exact"),
-            "diverged": run.count("diverged"),
-            "incomplete": run.count("incomplete"),
-            "compared": run.count("compared"),
-            "damaged": run.count("damaged"),
-            "unusable": run.count("unusable"),
-        },
+        "count": count,
         "logs": run.logs.iter().map(log).collect::<Vec<_>>(),
     })
 }
@@ -37,33 +32,35 @@ pub fn json(run: &Run) -> Value {
 fn log(verified: &Verified) -> Value {
     let mut about = json!({
         "log": verified.log.display().to_string(),
-        "outcome": verified.outcome(),
-        "status": verified.status(),
         "took_s": verified.took.as_secs_f64(),
-        "error": verified.verdict.as_ref().err(),
     });
-    if let (Ok(verdict), Some(about)) = (&verified.verdict, about.as_object_mut()) {
-        about.extend(json_of(verdict).as_object().cloned().unwrap_or_default());
+    if let Some(about) = about.as_object_mut() {
+        let found = verified.verdict.as_ref().map(found).unwrap_or_default();
+        for more in [json::judgement(verified.judgement()), found] {
+            about.extend(more.as_object().cloned().unwrap_or_default());
+        }
     }
     about
 }
 
-fn json_of(verdict: &Verdict) -> Value {
-    let (reason, words) = verdict.stopped();
+fn found(verdict: &Verdict) -> Value {
+    let Verdict { facts, divergence, versions, judgement: _ } = verdict;
     json!({
-        "start_tick": verdict.start_tick,
-        "exact_tick": verdict.exact_tick(),
-        "exact_s": verdict.exact_tick() as f64 * STEP_S,
-        "last_tick": verdict.last_tick(),
-        "stopped": { "reason": reason, "words": words },
-        "altered_tick": verdict.altered,
-        "digest": format!("{:016x}", verdict.digest),
-        "divergence": verdict.divergence.as_deref().map(json::divergence),
-        "versions": verdict.versions.as_deref().map(versions),
+        "start_tick": facts.start_tick,
+        "exact_tick": facts.exact_tick(),
+        "exact_s": facts.exact_tick() as f64 * STEP_S,
+        "same_tick": facts.same_tick(),
+        "last_tick": facts.last_tick(),
+        "end": json::end(&facts.end),
+        "altered_tick": facts.altered,
+        "diverged_tick": facts.diverged,
+        "digest": format!("{:016x}", facts.digest),
+        "divergence": divergence.as_deref().map(json::divergence),
+        "versions": versions.as_deref().map(json_of_versions),
     })
 }
 
-fn versions(versions: &Versions) -> Value {
+fn json_of_versions(versions: &Versions) -> Value {
     let channel = |(topic, difference): &(&str, Difference)| json!({ "channel": topic, "missing": difference.missing, "ignored": difference.ignored });
     json!({
         "recorded_model": versions.recorded_model,
@@ -91,15 +88,16 @@ pub fn junit(run: &Run) -> Result<String> {
 }
 
 fn status(verified: &Verified) -> TestCaseStatus {
-    let (kind, words) = match (&verified.verdict, verified.outcome()) {
-        (Ok(_), "exact") => return TestCaseStatus::success(),
-        (Ok(verdict), "damaged") => (NonSuccessKind::Error, verdict.to_string()),
-        (Ok(verdict), _) => (NonSuccessKind::Failure, verdict.to_string()),
-        (Err(error), _) => (NonSuccessKind::Error, error.clone()),
+    let kind = match verified.status() {
+        Status::Done => return TestCaseStatus::success(),
+        Status::Unusable => NonSuccessKind::Error,
+        _ => NonSuccessKind::Failure,
     };
+    let judgement = verified.judgement();
     let mut status = TestCaseStatus::non_success(kind);
-    status.set_type(verified.outcome());
-    status.set_message(words.lines().next().unwrap_or_default());
-    status.set_description(words.as_str());
+    status.set_type(judgement.outcome.name());
+    status.set_message(judgement.words.as_str());
+    let text = verified.verdict.as_ref().map_or_else(ToString::to_string, ToString::to_string);
+    status.set_description(text);
     status
 }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use engine::frames::Attitude;
 use engine::inputs::{DeviceEvent, World};
-use engine::{Aircraft, Inputs, Outputs, State, step};
+use engine::{Aircraft, Inputs, Outputs, State, observe, step};
 
 use crate::channels::{Channel, ChannelId, Written};
 use crate::records::{InputsRecord, StateRecord};
@@ -69,10 +69,7 @@ impl Flier {
         self.flown = None;
         if state.tick == 0 {
             // What was there to be seen before the first tick, as it was shown to the crew.
-            let world = World { paused: 1, ..self.of.world };
-            let inputs = Inputs { events: &[], world };
-            let outputs = step(&self.of.aircraft, &state, &inputs).1;
-            self.keep(Outputs { tick: 0, ..outputs });
+            self.keep(observe(&self.of.aircraft, &state, &self.of.world));
         }
     }
 

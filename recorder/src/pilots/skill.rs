@@ -283,10 +283,10 @@ impl Skill {
         let slow = 1.0 - flying;
         if eyes.on_wheels_norm < 0.1 {
             self.roll_level_rad =
-                clamp(self.roll_level_rad + slow * 0.003 * right_off * HAND_S, -0.15, 0.15);
+                clamp(self.roll_level_rad + slow * 0.006 * right_off * HAND_S, -0.15, 0.15);
             self.roll_level_rad *= 1.0 - flying * HAND_S / 2.0;
         }
-        let hover_rad = clamp(0.07 * right_off, -0.2, 0.2);
+        let hover_rad = clamp(0.04 * right_off, -0.2, 0.2);
         let heading_off = wrap_angle(aim.heading_rad - seen.euler.heading_rad);
         let turn_radps = clamp(0.2 * heading_off, -0.35, 0.35);
         let bank_rad = clamp(

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use engine::inputs::World;
 use engine::math::{PI, TAU, ln};
-use engine::{Aircraft, Inputs, Outputs, State, step};
+use engine::{Aircraft, Inputs, State, observe, step};
 use logs::cdr;
 use rerun::{LineStrips3D, Radius, Scalars, SeriesLines};
 
@@ -225,10 +225,10 @@ impl Page {
         if !tick.is_multiple_of(TICKS_PER_ROW) {
             return Ok(());
         }
-        let of_a = observed(a);
+        let of_a = observe(a.0, a.1, a.2);
         self.recorded.push(&mut self.canvas, &of_a);
         let Some(b) = b else { return Ok(()) };
-        let of_b = observed(b);
+        let of_b = observe(b.0, b.1, b.2);
         self.reflown.push(&mut self.canvas, &of_b);
         self.rows.push(Row {
             tick,
@@ -323,11 +323,6 @@ impl Page {
 fn growth_entity(number: usize) -> String {
     let group = GROWTH[number].1.trim_start_matches("plant.");
     format!("delta/growth/{group}")
-}
-
-/// What can be observed of a state by itself.
-fn observed((aircraft, state, world): InWorld) -> Outputs {
-    engine::step::derivatives(aircraft, state, world).1
 }
 
 /// Reflown less recorded; angles round the shorter way.

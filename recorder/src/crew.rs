@@ -1,0 +1,44 @@
+//! All hands of a flight, asked in their order.
+
+use engine::Outputs;
+use engine::inputs::{DeviceEvent, World};
+
+use crate::hands::{Hands, Reach};
+
+/// All hands, and what they hold on to between ticks.
+pub(crate) struct Crew {
+    hands: Vec<Box<dyn Hands>>,
+    pub(crate) world: World,
+    pub(crate) phase: (u64, &'static str),
+    pub(crate) done: bool,
+}
+
+impl Crew {
+    /// Hands that have touched nothing yet.
+    pub(crate) fn new(hands: Vec<Box<dyn Hands>>, world: World) -> Self {
+        Self { hands, world, phase: (0, ""), done: false }
+    }
+
+    /// Lets every hand act; returns the phase if it changed.
+    pub(crate) fn act(
+        &mut self,
+        tick: u64,
+        seen: &Outputs,
+        events: &mut Vec<DeviceEvent>,
+    ) -> Option<(u64, &'static str)> {
+        let before = self.phase.0;
+        for hand in &mut self.hands {
+            hand.act(
+                seen,
+                &mut Reach {
+                    tick,
+                    events,
+                    world: &mut self.world,
+                    phase: &mut self.phase,
+                    done: &mut self.done,
+                },
+            );
+        }
+        (self.phase.0 != before).then_some(self.phase)
+    }
+}

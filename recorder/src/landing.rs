@@ -1,0 +1,35 @@
+//! What is known of a flight when it is over.
+
+use engine::Outputs;
+use logs::{Closed, LogError};
+
+use crate::self_check::Checked;
+use crate::statistics::Statistics;
+use crate::writer::Delay;
+
+/// How a flight ended.
+#[derive(Debug)]
+pub struct Landing {
+    /// How it kept time.
+    pub statistics: Statistics,
+    /// The log, or why it ends early.
+    pub log: Result<Closed, LogError>,
+    /// What the aircraft was like at the end.
+    pub outputs: Outputs,
+    /// Device events taken.
+    pub events: u64,
+    /// Pictures sent to FlightGear.
+    pub sent: u64,
+    /// Pictures that could not be sent.
+    pub unsent: u64,
+    /// Most entries that ever waited for the writer.
+    pub backlog_max: usize,
+    /// How the writer was held up.
+    pub delay: Delay,
+    /// What the self-check found, if there was one.
+    pub checked: Option<Checked>,
+    /// What the system did not grant.
+    pub refused: Vec<String>,
+    /// Whether someone ended it.
+    pub stopped: bool,
+}

@@ -1,0 +1,82 @@
+//! Where a flight is while it is flown, for whoever shows it, and the word that it should end.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use engine::Outputs;
+
+/// Where the flight is, for whoever shows it, written by the loop without waiting.
+#[derive(Debug, Default)]
+pub struct Progress {
+    tick: AtomicU64,
+    height_m: AtomicU64,
+    airspeed_mps: AtomicU64,
+    heading_rad: AtomicU64,
+    phase: AtomicU64,
+    overruns: AtomicU64,
+    log_failed: AtomicBool,
+    pub(crate) mismatches: Arc<AtomicU64>,
+    /// Set by whoever wants the flight to end.
+    pub stop: Arc<AtomicBool>,
+}
+
+/// The same, read.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// Ticks flown.
+    pub tick: u64,
+    /// Over the ground.
+    pub height_m: f64,
+    /// True.
+    pub airspeed_mps: f64,
+    /// Clockwise from north.
+    pub heading_rad: f64,
+    /// Number of the phase.
+    pub phase: u64,
+    /// Late ticks so far.
+    pub overruns: u64,
+    /// The log cannot be written any further.
+    pub log_failed: bool,
+    /// Seconds of flight that were not the same when reflown in flight.
+    pub mismatches: u64,
+}
+
+impl Progress {
+    /// Lets SIGINT and SIGTERM end the flight: the log is finished and the summary printed.
+    ///
+    /// # Errors
+    /// When the system refuses the handlers.
+    pub fn stop_on_signals(&self) -> std::io::Result<()> {
+        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+            signal_hook::flag::register(signal, Arc::clone(&self.stop))?;
+        }
+        Ok(())
+    }
+
+    /// Where the flight is now.
+    pub fn now(&self) -> Snapshot {
+        let number = |bits: &AtomicU64| f64::from_bits(bits.load(Ordering::Relaxed));
+        Snapshot {
+            tick: self.tick.load(Ordering::Relaxed),
+            height_m: number(&self.height_m),
+            airspeed_mps: number(&self.airspeed_mps),
+            heading_rad: number(&self.heading_rad),
+            phase: self.phase.load(Ordering::Relaxed),
+            overruns: self.overruns.load(Ordering::Relaxed),
+            log_failed: self.log_failed.load(Ordering::Relaxed),
+            mismatches: self.mismatches.load(Ordering::Relaxed),
+        }
+    }
+
+    /// Written by the loop, without waiting.
+    pub(crate) fn show(&self, outputs: &Outputs, phase: u64, overruns: u64, log_failed: bool) {
+        let put = |bits: &AtomicU64, value: f64| bits.store(value.to_bits(), Ordering::Relaxed);
+        self.tick.store(outputs.tick, Ordering::Relaxed);
+        put(&self.height_m, outputs.height_above_ground_m);
+        put(&self.airspeed_mps, outputs.airspeed_mps);
+        put(&self.heading_rad, outputs.euler.heading_rad);
+        self.phase.store(phase, Ordering::Relaxed);
+        self.overruns.store(overruns, Ordering::Relaxed);
+        self.log_failed.store(log_failed, Ordering::Relaxed);
+    }
+}

@@ -1,0 +1,121 @@
+//! What became of a flight that stops being the recorded one: gathered while its log is reflown.
+
+use std::collections::BTreeMap;
+
+use engine::{Aircraft, Inputs, Outputs, State, step};
+use logs::{LogError, Tick, cdr};
+
+use crate::compare::Names;
+use crate::divergence::{Divergence, LastInput, Parted, SingleSteps};
+use crate::refly::Reflight;
+
+/// The first difference, if there is one, and what is known of it so far.
+pub(crate) struct Diagnosis {
+    last_input: LastInput,
+    single: SingleStepper,
+    /// The recorded state before the tick.
+    before: State,
+    /// What was found.
+    pub(crate) divergence: Option<Box<Divergence>>,
+}
+
+impl Diagnosis {
+    pub(crate) fn of(flight: &Reflight) -> Result<Self, LogError> {
+        Ok(Self {
+            last_input: LastInput::new()?,
+            single: SingleStepper::new()?,
+            before: flight.state,
+            divergence: None,
+        })
+    }
+
+    /// Adds a tick; `same` says whether the reflown state is the recorded one, where it was reflown.
+    pub(crate) fn add(
+        &mut self,
+        tick: u64,
+        flight: &mut Reflight,
+        same: Option<bool>,
+    ) -> Result<(), LogError> {
+        let recorded = &flight.reader.tick;
+        let parted = Parted { tick, recorded: &recorded.state_message, reflown: flight.message() };
+        match (&mut self.divergence, same) {
+            (None, Some(same)) => {
+                self.last_input.add(&recorded.events, &recorded.inputs)?;
+                if !same {
+                    let input = self.last_input.told(&flight.aircraft.cockpit);
+                    let names = &self.single.states;
+                    self.divergence = Divergence::new(names, &parted, input)?.map(Box::new);
+                }
+            }
+            (Some(divergence), Some(_)) => {
+                divergence.growth.add(tick, parted.recorded, parted.reflown);
+            }
+            (_, None) => {}
+        }
+        if let Some(divergence) = &mut self.divergence
+            && same.is_some()
+        {
+            let aircraft = &flight.aircraft;
+            self.single.step(aircraft, &self.before, recorded, &mut divergence.single)?;
+        }
+        self.before = recorded.record.state;
+        self.blocks(&flight.reader.outputs)?;
+        // What blocks gave stands some way behind the states in the file, or before them.
+        flight.reader.outputs.retain(|outputs| outputs.tick > tick);
+        Ok(())
+    }
+
+    /// Compares what blocks gave with what was recorded of it.
+    pub(crate) fn blocks(&mut self, recorded: &[Outputs]) -> Result<(), LogError> {
+        match &mut self.divergence {
+            Some(divergence) => self.single.blocks(recorded, &mut divergence.single),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Flies single steps from the recorded states.
+struct SingleStepper {
+    states: Names,
+    blocks: Names,
+    /// What they gave, until it is found in the log.
+    outputs: BTreeMap<u64, Outputs>,
+}
+
+impl SingleStepper {
+    fn new() -> Result<Self, LogError> {
+        Ok(Self {
+            states: Names::of::<State>()?,
+            blocks: Names::of::<Outputs>()?,
+            outputs: BTreeMap::new(),
+        })
+    }
+
+    fn step(
+        &mut self,
+        aircraft: &Aircraft,
+        before: &State,
+        recorded: &Tick,
+        single: &mut SingleSteps,
+    ) -> Result<(), LogError> {
+        let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
+        let (stepped, outputs) = step(aircraft, before, &inputs);
+        if single.block.is_none() {
+            self.outputs.insert(outputs.tick, outputs);
+        }
+        single.add(&self.states, &recorded.state_message, &cdr::encode(&stepped)?);
+        Ok(())
+    }
+
+    fn blocks(&mut self, recorded: &[Outputs], single: &mut SingleSteps) -> Result<(), LogError> {
+        for recorded in recorded {
+            if let Some(stepped) = self.outputs.remove(&recorded.tick)
+                && single.block.is_none()
+            {
+                let (recorded, of_step) = (cdr::encode(recorded)?, cdr::encode(&stepped)?);
+                single.add_outputs(&self.blocks, stepped.tick, &recorded, &of_step);
+            }
+        }
+        Ok(())
+    }
+}
