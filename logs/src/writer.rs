@@ -14,11 +14,12 @@ use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
 use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
-use crate::container::RECORD_BYTES_MAX;
 use crate::container::checksums::{RollCall, seal};
+use crate::container::{RECORD_BYTES_MAX, create, stamped};
+use crate::devices::DeviceIdentity;
 use crate::reader::Message;
 use crate::records::{
-    Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest, time_ns,
+    Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest,
 };
 use crate::schema::{self, MessageType};
 use crate::setup::{
@@ -172,6 +173,15 @@ impl FlightWriter {
         self.record(ChannelId::Timing, timing.tick, timing)
     }
 
+    /// An input device that was found.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn device(&mut self, device: &DeviceIdentity) -> Result<(), LogError> {
+        let message = device.encode()?;
+        self.put(ChannelId::Devices, device.tick, &message)
+    }
+
     /// Something that happened, as a record and in words.
     ///
     /// # Errors
@@ -184,7 +194,7 @@ impl FlightWriter {
         words: &str,
     ) -> Result<(), LogError> {
         let level = what.facts().levels.of(value);
-        let record = EventRecord { tick, kind: what as u64, value };
+        let record = EventRecord { tick, kind: what as u64, value, measured: [0.0; 2] };
         self.record(ChannelId::Events, tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;
         self.put(ChannelId::Log, tick, &message)
@@ -310,21 +320,4 @@ impl FlightWriter {
         self.roll_call.add(topic, kind.text.as_bytes(), &header, message);
         Ok(())
     }
-}
-
-/// The header of a tick's message. The sequence wraps after half a year of flight.
-pub(crate) fn stamped(channel_id: u16, tick: u64) -> MessageHeader {
-    let log_time = time_ns(tick);
-    MessageHeader { channel_id, sequence: tick as u32, log_time, publish_time: log_time }
-}
-
-/// A file to be written.
-pub(crate) fn create(path: &Path, force: bool) -> Result<File, LogError> {
-    File::options()
-        .write(true)
-        .create(true)
-        .truncate(force)
-        .create_new(!force)
-        .open(path)
-        .map_err(|error| LogError::create(path, error))
 }
