@@ -21,12 +21,16 @@ impl Made {
         let remove = || {
             let _ = fs::remove_file(out);
         };
-        let verdict = verdict.inspect_err(|_| remove()).with_context(|| out.display().to_string())?;
+        let verdict =
+            verdict.inspect_err(|_| remove()).with_context(|| out.display().to_string())?;
         let judgement = verdict.judgement;
         // One that was made of a recovered log says so.
         if !matches!(judgement.outcome, Outcome::Exact | Outcome::NeverClosed) {
             remove();
-            bail!("{}: not made: read again, it is not what was written: {judgement}", out.display());
+            bail!(
+                "{}: not made: read again, it is not what was written: {judgement}",
+                out.display()
+            );
         }
         Ok(Self { source: source.judgement.clone(), judgement })
     }

@@ -80,8 +80,14 @@ pub fn run(args: &Args) -> Result<Status> {
     let identity = source
         .marks(names_parent(identity::identity(), log, &reader, "whatif"))
         .with(parent::CHANGES, changes.join("; "));
-    let new =
-        NewLog { out: &out, force: args.force, setup: &setup, identity: &identity, timing: false, picture_of: Some(log) };
+    let new = NewLog {
+        out: &out,
+        force: args.force,
+        setup: &setup,
+        identity: &identity,
+        timing: false,
+        picture_of: Some(log),
+    };
     let initial = reader.initial;
     let mut apart = Apart::default();
     let written = rewrite(&mut reader, &initial, &new, |tick, state, outputs, _| {

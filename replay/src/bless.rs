@@ -75,10 +75,7 @@ pub fn bless(
 ) -> Result<Moved, ReplayError> {
     let options = OpenOptions { across_versions: true, ..OPEN };
     let source = Source::opened(log, options)?.judgement;
-    if !matches!(
-        source.outcome,
-        Outcome::NotReflown | Outcome::Diverged | Outcome::OutputsDiffer
-    ) {
+    if !matches!(source.outcome, Outcome::NotReflown | Outcome::Diverged | Outcome::OutputsDiffer) {
         return Err(refused(&source.words));
     }
     let moved = fly(log, identity.clone(), aircraft_toml, false)?;
@@ -91,8 +88,7 @@ pub fn bless(
         None => "moved by what it is flown with".into(),
     };
     let first = first.map_or("unknown".into(), |tick| tick.to_string());
-    let identity =
-        identity.with(parent::JUDGEMENT, words).with(parent::FIRST_BAD_TICK, first);
+    let identity = identity.with(parent::JUDGEMENT, words).with(parent::FIRST_BAD_TICK, first);
     fly(log, identity, aircraft_toml, true)
 }
 
@@ -128,8 +124,14 @@ fn fly(
     let before = logs::closing(log).map_or(0, |(_, digest)| digest);
     let identity = inherited(identity, &reader.identity, before);
     let temporary = beside(log, "new");
-    let new =
-        NewLog { out: &temporary, force: true, setup: &setup, identity: &identity, timing: true, picture_of: None };
+    let new = NewLog {
+        out: &temporary,
+        force: true,
+        setup: &setup,
+        identity: &identity,
+        timing: true,
+        picture_of: None,
+    };
     let names = Names::of::<State>()?;
     let mut seen = Seen::new(&names, &reader.initial);
     seen.compare(&reader.initial, &initial)?;

@@ -7,8 +7,8 @@ use engine::STEP_S;
 use logs::text::at;
 use logs::{Ending, FlightReader, Identity, LogError, Recovery, Tick};
 
-use crate::refly::{OPEN, Reflight, ReplayError, Window};
 use crate::outputs::OutputsDifference;
+use crate::refly::{OPEN, Reflight, ReplayError, Window};
 use crate::rewrite::parent;
 use crate::ticks::Irregular;
 
@@ -393,7 +393,8 @@ impl Facts {
         let what = match self.irregular.filter(|irregular| irregular.tick() == tick) {
             Some(irregular) => irregular.to_string(),
             None if tick == self.start_tick => {
-                "its aircraft, cockpit map, scenario or first state is not what it was flown with".into()
+                "its aircraft, cockpit map, scenario or first state is not what it was flown with"
+                    .into()
             }
             None => "the digest does not follow from what was before".into(),
         };

@@ -35,7 +35,13 @@ impl fmt::Display for Irregular {
         match *self {
             Self::Missing { first, last } if first == last => write!(f, "{} is missing", at(first)),
             Self::Missing { first, last } => {
-                write!(f, "{} ticks are missing, from {} to {}", last - first + 1, at(first), at(last))
+                write!(
+                    f,
+                    "{} ticks are missing, from {} to {}",
+                    last - first + 1,
+                    at(first),
+                    at(last)
+                )
             }
             Self::Doubled { tick } => write!(f, "{} is there once more", at(tick)),
         }

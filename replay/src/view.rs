@@ -47,8 +47,8 @@ use rerun::RecordingStreamError;
 use rerun::external::re_log_encoding::rrd::EncodeError;
 use rerun::sink::SinkFlushError;
 
-pub use against::{DrawError, Drawn, Other, draw_against};
 use crate::judgement::{Judgement, Outcome};
+pub use against::{DrawError, Drawn, Other, draw_against};
 use canvas::Canvas;
 use layout::Subject;
 use track::{ALONE, Track};

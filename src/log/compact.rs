@@ -52,8 +52,8 @@ pub fn compact(args: &CompactArgs) -> Result<Status> {
     }
     let stem = stem(&args.log);
     let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"))?;
-    let source =
-        Source::proven(&args.log, "not compacted").with_context(|| args.log.display().to_string())?;
+    let source = Source::proven(&args.log, "not compacted")
+        .with_context(|| args.log.display().to_string())?;
     let copied = work(&args.log, &out, args.force, |progress| {
         let ticks = keyframe_ticks as u64;
         compact::compact(&args.log, &out, args.force, ticks, replay::flown, progress)
@@ -80,8 +80,8 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
         None => format!("{stem}-expanded.mcap"),
     };
     let out = out(&args.log, args.out.as_deref(), &name)?;
-    let source =
-        Source::proven(&args.log, "not expanded").with_context(|| args.log.display().to_string())?;
+    let source = Source::proven(&args.log, "not expanded")
+        .with_context(|| args.log.display().to_string())?;
     let copied = work(&args.log, &out, args.force, |progress| {
         compact::expand(&args.log, &out, args.force, replay::flown, progress)
     })?;

@@ -7,8 +7,8 @@ use std::io::BufWriter;
 use mcap::records::{AttachmentHeader, Channel, Metadata};
 use mcap::{Attachment, Writer};
 
-use super::{VERSION, VERSIONS_READ};
 use super::columns::{Taker, put};
+use super::{VERSION, VERSIONS_READ};
 use crate::LogError;
 use crate::container::{Record, Schema};
 use crate::setup::Setup;

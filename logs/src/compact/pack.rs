@@ -11,8 +11,8 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
 use super::files::{attach, define, encode, facts, setup_of};
-use super::proof::prove;
 use super::flier::{AircraftOf, Flier, short_digest};
+use super::proof::prove;
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted};
 use crate::container::checksums::add_message;
