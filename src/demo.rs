@@ -48,7 +48,7 @@ pub fn run(args: &Args) -> Result<Status> {
     let status = verify::verify_one(out);
     #[cfg(feature = "rerun")]
     {
-        let bytes = crate::view::save(out, &saved, &replay::Window::default())?;
+        let (bytes, _) = crate::view::save(out, &saved, &replay::Window::default())?;
         say!("{}: {}, for `rerun {0}`", saved.display(), logs::text::size(bytes));
     }
     Ok(status)

@@ -1,9 +1,9 @@
 //! `tiltrotor log`.
 
 mod cat;
+mod clip;
 mod compact;
 mod export;
-mod trim;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,6 +14,7 @@ use logs::evolution::Difference;
 use logs::text::{at, size};
 use logs::{Ending, LogError, Messages, OpenOptions};
 use recorder::statistics::Statistics;
+use replay::{Facts, Window};
 
 use crate::status::Status;
 use crate::window::WindowArgs;
@@ -38,7 +39,9 @@ pub enum Command {
         window: WindowArgs,
     },
     /// A part of a log as a log of its own, which names its parent; or as a golden flight
-    Trim(trim::Args),
+    // The name that it had, for one version more.
+    #[command(alias = "trim")]
+    Clip(clip::Args),
     /// Inputs, keyframes and digests kept, states dropped: they can be flown again
     Compact(compact::CompactArgs),
     /// The log that was compacted, to the byte
@@ -63,7 +66,7 @@ pub fn run(command: &Command) -> Result<Status> {
         Command::Cat(args) => cat::run(args),
         Command::Export(args) => export::run(args),
         Command::Summary { log, window } => summary(log, window),
-        Command::Trim(args) => trim::run(args),
+        Command::Clip(args) => clip::run(args),
         Command::Compact(args) => compact::compact(args),
         Command::Expand(args) => compact::expand(args),
         Command::Recover { broken, out, force } => recover(broken, out, *force),
@@ -97,6 +100,7 @@ fn info(log: &Path) -> Result<Status> {
         say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
     }
     let (mut events, mut digest) = (0, 0);
+    let mut facts = Facts::of_reading(&reader);
     let start = reader.initial.tick;
     let mut last = start;
     let mut statistics = Statistics::new();
@@ -106,6 +110,7 @@ fn info(log: &Path) -> Result<Status> {
                 last = tick.record.state.tick;
                 events += tick.events.len();
                 digest = tick.record.digest;
+                facts.add(tick, None);
             }
             Ok(None) => break None,
             Err(error @ (LogError::Order(_) | LogError::Decode(_))) => break Some(error),
@@ -117,6 +122,9 @@ fn info(log: &Path) -> Result<Status> {
     };
     let ticks = last.saturating_sub(start);
     say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
+    if let Some(irregular) = facts.irregular {
+        say!("  {:<16} {irregular}", "not regular");
+    }
     if start != 0 {
         say!("  {:<16} {}", "begins at", at(start));
     }
@@ -152,6 +160,8 @@ fn info(log: &Path) -> Result<Status> {
     for remark in &reader.remarks {
         say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }
+    facts.end(&reader, disorder.as_ref().map(ToString::to_string), &Window::default());
+    let judgement = facts.judge();
     let ending = match (disorder, reader.ending()) {
         (Some(error), _) => format!("unusable from here: {error}"),
         (None, Some(Ending::Closed)) => "closed".into(),
@@ -162,7 +172,11 @@ fn info(log: &Path) -> Result<Status> {
         (None, _) => "not closed: killed, or cut".into(),
     };
     say!("  {:<16} {ending}", "end of the log");
-    Ok(if ending == "closed" { Status::Done } else { Status::Unusable })
+    say!("  {:<16} {judgement}", "judgement");
+    if let Some(origin) = &facts.origin {
+        say!("  {:<16} {origin}", "origin");
+    }
+    Ok(Status::from(&judgement))
 }
 
 fn summary(log: &Path, window: &WindowArgs) -> Result<Status> {
