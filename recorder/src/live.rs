@@ -3,6 +3,7 @@
 //! It runs on the thread that flies, asks for no memory once it has begun, and waits for nothing but
 //! time; a flight that is not in real time waits for its writer instead.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
@@ -10,6 +11,7 @@ use std::sync::mpsc;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
 use flightgear::Link;
+use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity};
 
@@ -51,6 +53,8 @@ pub(crate) struct Live<'a, S> {
     events: Vec<DeviceEvent>,
     events_taken: u64,
     recording: Recording,
+    /// Where the log goes.
+    output: Output,
     self_check: Option<SelfCheck>,
     link: Option<Link>,
     /// Real time; `None` flies as fast as it goes.
@@ -84,15 +88,16 @@ where
         let state = analysis::start::state_at(&flight.start, &aircraft)?;
         let world = flight.start.world.world();
         let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
+        let mut output = Output::flight(&flight.out, flight.force)?;
         let writer = FlightWriter::create(
-            &flight.out,
+            output.file()?,
             &flight.setup,
             &identity,
             &aircraft,
             &flight.robot_description,
             &state,
-            flight.force,
         )?;
+        output.begun()?;
         let (tell, told) = mpsc::channel();
         let mut recording = Recording::start(writer, &state, told);
         let found = Arc::clone(&progress.mismatches);
@@ -113,6 +118,7 @@ where
             events: Vec::with_capacity(EVENTS_A_TICK),
             events_taken: 0,
             recording,
+            output,
             self_check,
             link: flight.link,
             ticks_max: flight.ticks_max,
@@ -242,9 +248,13 @@ where
         let (sent, unsent) =
             self.link.as_ref().map_or((0, 0), |link| (link.sent(), link.dropped()));
         let (log, delay) = self.recording.finish();
+        let set_aside = self.output.set_aside().map(Path::to_path_buf);
+        let log = log.and_then(|closed| self.output.finish().map(|()| closed));
+        let set_aside = set_aside.filter(|_| log.is_err());
         Landing {
             statistics: self.statistics,
             log,
+            set_aside,
             outputs: self.outputs,
             events: self.events_taken,
             sent,

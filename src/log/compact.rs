@@ -6,10 +6,10 @@ use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::compact::{self, Copied};
+use logs::output::Output;
 use logs::text::{at, size};
 
 use crate::status::Status;
-use crate::whatif::refuse_itself;
 
 /// Seconds between two states that are kept: an eighth of what is kept at all, and soon flown.
 const KEYFRAMES_S: f64 = 2.0;
@@ -50,8 +50,8 @@ pub fn compact(args: &CompactArgs) -> Result<Status> {
         bail!("--keyframes {}: expected {STEP_S} s (one tick) to 1000 s", args.keyframes);
     }
     let stem = stem(&args.log);
-    let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"))?;
-    let copied = work(&args.log, &out, args.force, |progress| {
+    let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"));
+    let copied = work(&args.log, |progress| {
         let ticks = keyframe_ticks as u64;
         compact::compact(&args.log, &out, args.force, ticks, replay::flown, progress)
     })?;
@@ -74,12 +74,14 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
         Some(before) => format!("{before}.mcap"),
         None => format!("{stem}-expanded.mcap"),
     };
-    let out = out(&args.log, args.out.as_deref(), &name)?;
-    let copied = work(&args.log, &out, args.force, |progress| {
-        compact::expand(&args.log, &out, args.force, replay::flown, progress)
+    let out = out(&args.log, args.out.as_deref(), &name);
+    let output = Output::beside(&out, args.force, &[&args.log])?;
+    let copied = work(&args.log, |progress| {
+        compact::expand(&args.log, &output, replay::flown, progress)
     })?;
     // Every state that was flown again has to have the digest that was kept.
-    let mut reader = logs::open(&out, replay::OPEN).with_context(|| out.display().to_string())?;
+    let made = output.unfinished();
+    let mut reader = logs::open(made, replay::OPEN).with_context(|| out.display().to_string())?;
     let mut broken = None;
     while let Some(tick) = reader.next_tick().with_context(|| out.display().to_string())? {
         if !tick.chained {
@@ -87,6 +89,15 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
         }
         reader.forget();
     }
+    if let Some(tick) = broken {
+        complain!(
+            "tiltrotor: {}: not what was compacted: the digest breaks at {}; nothing was written",
+            args.log.display(),
+            at(tick)
+        );
+        return Ok(Status::Differs);
+    }
+    output.finish()?;
     let ticks = copied.states.saturating_sub(1);
     say!(
         "{}: {}, {ticks} ticks ({:.1} s)",
@@ -94,14 +105,6 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
         size(copied.bytes),
         ticks as f64 * STEP_S
     );
-    if let Some(tick) = broken {
-        complain!(
-            "tiltrotor: {}: not what was compacted: the digest breaks at {}",
-            out.display(),
-            at(tick)
-        );
-        return Ok(Status::Differs);
-    }
     say!(
         "every digest follows from the states that were flown again, last {:016x}",
         reader.digest()
@@ -116,16 +119,13 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
     Ok(Status::Done)
 }
 
-/// Carries it out with a line of progress on a terminal; when it fails, no file is left.
+/// Carries it out with a line of progress on a terminal.
 fn work(
     log: &Path,
-    out: &Path,
-    force: bool,
     copy: impl FnOnce(&mut dyn FnMut(u64)) -> Result<Copied, logs::LogError>,
 ) -> Result<Copied> {
     let bar = ProgressBar::new_spinner();
     bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-    let there_before = out.exists();
     let copied = copy(&mut |states| {
         if states.is_multiple_of(2500) {
             bar.set_message(format!("{}: {:.0} s", log.display(), states as f64 * STEP_S));
@@ -133,9 +133,6 @@ fn work(
         }
     });
     bar.finish_and_clear();
-    if copied.is_err() && (force || !there_before) {
-        let _ = std::fs::remove_file(out);
-    }
     copied.with_context(|| log.display().to_string())
 }
 
@@ -143,8 +140,6 @@ fn stem(log: &Path) -> String {
     log.file_stem().unwrap_or_default().display().to_string()
 }
 
-fn out(log: &Path, out: Option<&Path>, name: &str) -> Result<PathBuf> {
-    let out = out.map_or_else(|| log.with_file_name(name), Path::to_path_buf);
-    refuse_itself(log, &out)?;
-    Ok(out)
+fn out(log: &Path, out: Option<&Path>, name: &str) -> PathBuf {
+    out.map_or_else(|| log.with_file_name(name), Path::to_path_buf)
 }

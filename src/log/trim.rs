@@ -1,17 +1,16 @@
 //! `tiltrotor log trim`.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
+use logs::output::{self, Output};
 use logs::text::{at, size};
-use replay::{KEYFRAME_TICKS, NewLog, Window, beside, names_parent, parent, rewrite};
+use replay::{KEYFRAME_TICKS, NewLog, Window, names_parent, parent, rewrite};
 
 use crate::identity;
 use crate::status::Status;
-use crate::whatif::refuse_itself;
 use crate::window::WindowArgs;
 
 /// Where golden flights live.
@@ -48,7 +47,9 @@ pub fn run(args: &Args) -> Result<Status> {
         let stem = args.log.file_stem().unwrap_or_default().display().to_string();
         let name = format!("{stem}-trim.mcap");
         let out = args.out.clone().unwrap_or_else(|| args.log.with_file_name(name));
-        let (ticks, bytes) = cut(args, &window, &out, args.force, true)?;
+        let output = Output::beside(&out, args.force, &[&args.log])?;
+        let (ticks, bytes) = cut(args, &window, &output, true)?;
+        output.finish()?;
         told(&out, ticks, bytes);
         return Ok(Status::Done);
     };
@@ -63,20 +64,12 @@ pub fn run(args: &Args) -> Result<Status> {
     let folder = Path::new(GOLDEN);
     fs::create_dir_all(folder).with_context(|| format!("cannot make {GOLDEN}"))?;
     let out = folder.join(format!("{name}.mcap"));
-    if out.exists() && !args.force {
-        bail!("{} exists; name another, or overwrite it with --force", out.display());
-    }
-    let whole = beside(&out, "whole");
-    let golden = || -> Result<(u64, u64)> {
-        let (ticks, _) = cut(args, &window, &whole, true, false)?;
-        let made =
-            logs::compact::compact(&whole, &out, args.force, KEYFRAME_TICKS, replay::flown, |_| ())
-                .with_context(|| out.display().to_string())?;
-        Ok((ticks, made.bytes))
-    };
-    let made = golden();
-    let _ = fs::remove_file(&whole);
-    let (ticks, bytes) = made?;
+    let whole = Output::beside(&out, args.force, &[&args.log])?;
+    let (ticks, _) = cut(args, &window, &whole, false)?;
+    let (from, keyframes) = (whole.unfinished(), KEYFRAME_TICKS);
+    let bytes = logs::compact::compact(from, &out, args.force, keyframes, replay::flown, |_| ())
+        .with_context(|| out.display().to_string())?
+        .bytes;
     told(&out, ticks, bytes);
     if bytes > GOLDEN_BYTES_MAX {
         let most = size(GOLDEN_BYTES_MAX);
@@ -96,10 +89,9 @@ fn told(out: &Path, ticks: u64, bytes: u64) {
     );
 }
 
-/// Writes the part as a log of its own; returns its ticks and its size.
-fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> Result<(u64, u64)> {
+/// Writes the part as a log of its own, which is not finished yet; returns its ticks and its size.
+fn cut(args: &Args, window: &Window, out: &Output, timing: bool) -> Result<(u64, u64)> {
     let log = &args.log;
-    refuse_itself(log, out)?;
     let name = || log.display().to_string();
     let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
     if !reader.intact {
@@ -111,7 +103,7 @@ fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> R
         identity = identity.with(parent::REASON, reason.trim());
     }
     let (setup, initial) = (reader.setup.clone(), reader.initial);
-    let new = NewLog { out, force, setup: &setup, identity: &identity, timing };
+    let new = NewLog { out, setup: &setup, identity: &identity, timing };
     let (mut ticks, mut wrong) = (0, None);
     let written = rewrite(&mut reader, &initial, &new, |tick, state, _, _| {
         ticks += 1;
@@ -121,7 +113,6 @@ fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> R
     })
     .with_context(name)?;
     if let Some(tick) = wrong {
-        let _ = fs::remove_file(out);
         bail!(
             "{}: not cut: from {} on it does not refly to the recorded bits; `tiltrotor verify` says \
              more",
@@ -130,7 +121,6 @@ fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> R
         );
     }
     if ticks == 0 {
-        let _ = fs::remove_file(out);
         bail!("{}: not cut: there is no tick in that window", name());
     }
     Ok((ticks, written.closed.bytes))
@@ -142,7 +132,5 @@ fn enter(readme: &Path, name: &str, reason: &str) -> Result<()> {
     let old = fs::read_to_string(readme).unwrap_or_else(|_| "# Golden flights\n".into());
     let mine = format!("- `{name}.mcap`: ");
     let kept: Vec<_> = old.lines().filter(|line| !line.starts_with(&mine)).collect();
-    let mut file = fs::File::create(readme).with_context(|| readme.display().to_string())?;
-    writeln!(file, "{}\n{entry}", kept.join("\n"))?;
-    Ok(())
+    Ok(output::write(readme, &format!("{}\n{entry}\n", kept.join("\n")), &[])?)
 }
