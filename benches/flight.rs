@@ -99,8 +99,8 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let out = scratch("hand-over");
     let identity = Identity::new();
     let file = fs::File::create(&out).expect("a file");
-    let writer = FlightWriter::create(file, &setup(), &identity, &aircraft, "", &state)
-        .expect("a log");
+    let writer =
+        FlightWriter::create(file, &setup(), &identity, &aircraft, "", &state).expect("a log");
     let mut recording = Recording::start(writer, &state, std::sync::mpsc::channel().1);
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {

@@ -31,6 +31,7 @@ mod with_rerun {
 
     use anyhow::{Context, bail};
     use engine::STEP_NS;
+    use logs::output::Output;
     use logs::text::{at, size};
     use replay::view::{DrawError, FlightView, Other, Severity, draw_against};
     use replay::{Reflight, ReflyOptions, Window};
@@ -40,9 +41,9 @@ mod with_rerun {
     /// Reflies the log into a recording, and opens the viewer unless it is to be saved.
     pub fn run(args: &Args) -> Result<Status> {
         let saved = args.save.clone().unwrap_or_else(|| args.log.with_extension("rrd"));
-        if saved.exists() && !args.force {
-            bail!("{} exists; overwrite it with --force", saved.display());
-        }
+        let inputs: Vec<&Path> =
+            [Some(&args.log), args.against.as_ref()].into_iter().flatten().map(|f| &**f).collect();
+        let output = Output::beside(&saved, args.force, &inputs)?;
         let window = args.window.of(&args.log)?;
         let bytes = match &args.against {
             Some(_) if window != Window::default() => {
@@ -50,9 +51,10 @@ mod with_rerun {
                     "--against shows whole flights; `tiltrotor log trim` makes logs of their parts"
                 )
             }
-            Some(other) => save_against(&args.log, Other::Log(other), &saved)?,
-            None => save(&args.log, &saved, &window)?,
+            Some(other) => save_against(&args.log, Other::Log(other), &output)?,
+            None => save(&args.log, &output, &window)?,
         };
+        output.finish()?;
         say!("{}: {} for rerun", saved.display(), size(bytes));
         if args.save.is_none() {
             Command::new("rerun").arg(&saved).spawn().with_context(|| {
@@ -66,7 +68,7 @@ mod with_rerun {
     }
 
     /// Draws the log and what is beside it into a recording; returns its size.
-    fn save_against(log: &Path, other: Other, saved: &Path) -> Result<u64> {
+    fn save_against(log: &Path, other: Other, saved: &Output) -> Result<u64> {
         let drawn = draw_against(log, other, saved).map_err(|error| match (&error, other) {
             // Which of the two logs it was is not known here.
             (DrawError::Replay(_), Other::Log(other)) => {
@@ -85,7 +87,7 @@ mod with_rerun {
     }
 
     /// Reflies the log into a recording; returns its size.
-    pub fn save(log: &Path, saved: &Path, window: &Window) -> Result<u64> {
+    pub fn save(log: &Path, saved: &Output, window: &Window) -> Result<u64> {
         let options = ReflyOptions { window: *window, across_versions: false };
         let mut flight =
             Reflight::open(log, &options).with_context(|| log.display().to_string())?;

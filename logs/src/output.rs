@@ -122,9 +122,11 @@ impl Output {
         let failed = |error| LogError::create(&self.named, error);
         let set_aside = match old {
             None => {
-                link(hidden, &self.target).map_err(|error| match hold(&self.named, &self.target) {
-                    Err(in_use) => in_use,
-                    Ok(_) => failed(error),
+                link(hidden, &self.target).map_err(|error| {
+                    match hold(&self.named, &self.target) {
+                        Err(in_use) => in_use,
+                        Ok(_) => failed(error),
+                    }
                 })?;
                 None
             }

@@ -83,11 +83,7 @@ impl FlightWriter {
     }
 
     /// Starts a log that holds no message yet.
-    pub(crate) fn begin(
-        file: File,
-        setup: &Setup,
-        identity: &Identity,
-    ) -> Result<Self, LogError> {
+    pub(crate) fn begin(file: File, setup: &Setup, identity: &Identity) -> Result<Self, LogError> {
         // What cannot be read back is not written.
         if let Some((name, text)) =
             setup.files().iter().find(|(_, text)| text.len() > TEXT_BYTES_MAX)

@@ -105,8 +105,7 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
     let mut state = State::default();
     let new = fs::File::create_new(&path).expect("a file");
     let mut writer =
-        FlightWriter::create(new, &setup, &identity, &aircraft, "<robot/>", &state)
-            .expect("a log");
+        FlightWriter::create(new, &setup, &identity, &aircraft, "<robot/>", &state).expect("a log");
     for tick in 0..TICKS {
         let event = DeviceEvent {
             tick,

@@ -76,9 +76,8 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
     };
     let out = out(&args.log, args.out.as_deref(), &name);
     let output = Output::beside(&out, args.force, &[&args.log])?;
-    let copied = work(&args.log, |progress| {
-        compact::expand(&args.log, &output, replay::flown, progress)
-    })?;
+    let copied =
+        work(&args.log, |progress| compact::expand(&args.log, &output, replay::flown, progress))?;
     // Every state that was flown again has to have the digest that was kept.
     let made = output.unfinished();
     let mut reader = logs::open(made, replay::OPEN).with_context(|| out.display().to_string())?;

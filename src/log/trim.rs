@@ -1,11 +1,12 @@
 //! `tiltrotor log trim`.
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
-use logs::output::{self, Output};
+use logs::output::Output;
 use logs::text::{at, size};
 use replay::{KEYFRAME_TICKS, NewLog, Window, names_parent, parent, rewrite};
 
@@ -66,16 +67,18 @@ pub fn run(args: &Args) -> Result<Status> {
     let out = folder.join(format!("{name}.mcap"));
     let whole = Output::beside(&out, args.force, &[&args.log])?;
     let (ticks, _) = cut(args, &window, &whole, false)?;
+    // Before the flight takes its place: what can fail has been done then.
+    let entry = enter(&folder.join("README.md"), name, reason)?;
     let (from, keyframes) = (whole.unfinished(), KEYFRAME_TICKS);
     let bytes = logs::compact::compact(from, &out, args.force, keyframes, replay::flown, |_| ())
         .with_context(|| out.display().to_string())?
         .bytes;
+    entry.finish()?;
     told(&out, ticks, bytes);
     if bytes > GOLDEN_BYTES_MAX {
         let most = size(GOLDEN_BYTES_MAX);
         complain!("tiltrotor: that is more than {most}: a shorter window would do as well");
     }
-    enter(&folder.join("README.md"), name, reason)?;
     say!("`cargo test --no-default-features --test golden` verifies it");
     Ok(Status::Done)
 }
@@ -126,11 +129,14 @@ fn cut(args: &Args, window: &Window, out: &Output, timing: bool) -> Result<(u64,
     Ok((ticks, written.closed.bytes))
 }
 
-/// Says in the folder's README what the flight is for.
-fn enter(readme: &Path, name: &str, reason: &str) -> Result<()> {
+/// Says in the folder's README what the flight is for; whoever asked for it finishes it.
+fn enter(readme: &Path, name: &str, reason: &str) -> Result<Output> {
     let entry = format!("- `{name}.mcap`: {reason}");
     let old = fs::read_to_string(readme).unwrap_or_else(|_| "# Golden flights\n".into());
     let mine = format!("- `{name}.mcap`: ");
     let kept: Vec<_> = old.lines().filter(|line| !line.starts_with(&mine)).collect();
-    Ok(output::write(readme, &format!("{}\n{entry}\n", kept.join("\n")), &[])?)
+    let output = Output::beside(readme, true, &[])?;
+    writeln!(output.file()?, "{}\n{entry}", kept.join("\n"))
+        .with_context(|| readme.display().to_string())?;
+    Ok(output)
 }

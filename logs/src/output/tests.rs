@@ -45,11 +45,8 @@ fn an_empty_file_left_over_is_no_obstacle() {
     for (name, flight) in [("a", false), ("b", true)] {
         let path = folder.path().join(name);
         fs::write(&path, "").expect("a file");
-        let output = if flight {
-            Output::flight(&path, false)
-        } else {
-            Output::beside(&path, false, &[])
-        };
+        let output =
+            if flight { Output::flight(&path, false) } else { Output::beside(&path, false, &[]) };
         let output = output.expect("begun");
         put(&output, "whole");
         output.finish().expect("in its place");
