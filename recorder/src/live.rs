@@ -11,6 +11,8 @@ use std::sync::mpsc;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
 use flightgear::Link;
+#[cfg(feature = "sticks")]
+use logs::devices::DeviceIdentity;
 use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity};
@@ -89,7 +91,8 @@ where
         let world = flight.start.world.world();
         let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
         let mut output = Output::flight(&flight.out, flight.force)?;
-        let writer = FlightWriter::create(
+        #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to tell of"))]
+        let mut writer = FlightWriter::create(
             output.file()?,
             &flight.setup,
             &identity,
@@ -97,6 +100,17 @@ where
             &flight.robot_description,
             &state,
         )?;
+        #[cfg(feature = "sticks")]
+        for (device, name) in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
+            let (device, name, tick) = (*device, name.clone(), state.tick);
+            writer.device(&DeviceIdentity {
+                tick,
+                device,
+                name,
+                mapped: 1,
+                ..Default::default()
+            })?;
+        }
         output.begun()?;
         let (tell, told) = mpsc::channel();
         let mut recording = Recording::start(writer, &state, told);
@@ -221,6 +235,7 @@ where
         let sent_ns = times.sent_ns - times.woke_ns;
         // Synthetic events have no time of the kernel's.
         let kernel_ns = self.events.iter().map(|event| event.kernel_time_ns).filter(|&ns| ns > 0);
+        let stamped_events = kernel_ns.clone().count() as u64;
         let timing = TimingRecord {
             tick,
             wall_ns: times.wall_ns,
@@ -232,6 +247,9 @@ where
                 .map_or(0, |oldest_ns| (times.wall_ns + sent_ns).saturating_sub(oldest_ns)),
             record_ns: (times.recorded_ns - times.sampled_ns) + (times.handed_ns - times.sent_ns),
             overrun: u64::from(due_ns.is_some_and(|due_ns| times.handed_ns > due_ns + STEP_NS)),
+            slip_ns: 0,
+            stamped_events,
+            implausible_events: 0,
         };
         self.recording.put(ToRecord::Timing(timing));
         self.statistics.add(&timing);
