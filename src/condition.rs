@@ -1,6 +1,6 @@
 //! The steady flight that a command is asked about, in a pilot's units.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use analysis::trim::{Power, Target};
 use anyhow::{Context, Result, bail};
@@ -100,6 +100,11 @@ pub fn rpm_select(aircraft: &Aircraft, rpm: Option<f64>, nacelle_deg: f64) -> Re
 }
 
 impl Condition {
+    /// The files that it is read from.
+    pub fn files(&self) -> Vec<&Path> {
+        self.aircraft.iter().map(PathBuf::as_path).collect()
+    }
+
     /// The aircraft, as heavy as asked for, and the flight.
     pub fn read(&self) -> Result<(Aircraft, Target)> {
         let (name, text) = fly::text_or(self.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;

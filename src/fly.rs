@@ -11,6 +11,7 @@ use engine::cockpit;
 use flightgear::Link;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
+use logs::output;
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::{Flight, Landing, Progress, fly};
@@ -102,6 +103,9 @@ pub struct Common {
 pub fn run(args: &Args) -> Result<Status> {
     let mut plan = Plan::new(&args.common)?;
     plan.flight.self_check = args.self_check;
+    let inputs: Vec<&Path> =
+        [&args.map, &args.script].into_iter().filter_map(|file| file.as_deref()).collect();
+    output::refuse(&args.common.out, args.common.force, &inputs)?;
     if let Some(seconds) = args.duration {
         let ticks = (seconds / STEP_S).round();
         if !(ticks.is_finite() && ticks >= 1.0) {
@@ -170,12 +174,9 @@ impl Plan {
         }
         let robot_description = aircraft::urdf(&aircraft);
         let link = if common.no_flightgear { None } else { Some(Link::new(&common.flightgear)?) };
-        if common.out.exists() && !common.force {
-            bail!(
-                "{} exists; name another file with --out, or overwrite it with --force",
-                common.out.display()
-            );
-        }
+        let inputs: Vec<&Path> =
+            [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
+        output::refuse(&common.out, common.force, &inputs)?;
         Ok(Self {
             phases: Vec::new(),
             flight: Flight {

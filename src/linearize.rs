@@ -1,14 +1,14 @@
 //! `tiltrotor linearize`.
 
-use std::fs;
 use std::path::PathBuf;
 
 use analysis::linearize::{INPUTS, Linear, OUTPUTS, decibels, linearize};
 use analysis::modes::{Mode, modes};
 use analysis::trim::{Trim, trim};
 use analysis::{Complex, Matrix, Polar, Unsolved};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use engine::units::{DEG_PER_RAD as DEG, INCH_M};
+use logs::output;
 
 use crate::condition::Condition;
 use crate::status::Status;
@@ -87,8 +87,8 @@ pub fn run(args: &Args) -> Result<Status> {
         Ok(found) => {
             found.print(args, &trim, &linear);
             if let Some(path) = &args.csv {
-                fs::write(path, csv(&linear, &found.eigenvalues))
-                    .with_context(|| format!("cannot write {}", path.display()))?;
+                let text = csv(&linear, &found.eigenvalues);
+                output::write(path, &text, &args.condition.files())?;
             }
             Ok(Status::Done)
         }

@@ -60,6 +60,9 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
         ),
         Err(error) => say!("log        {out} ends before the flight did: {error}"),
     }
+    if let Some(older) = &landing.set_aside {
+        say!("           the log that was there before is kept as {}", older.display());
+    }
     if landing.delay.times > 0 {
         say!(
             "writer     held up {} times, {:.1} s at most; at most {} entries waited, none was lost",

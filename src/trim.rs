@@ -1,11 +1,11 @@
 //! `tiltrotor trim`.
 
-use std::fs;
 use std::path::PathBuf;
 
 use analysis::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use engine::units::{DEG_PER_RAD as DEG, FOOT_M, HOUR_S, INCH_M, KNOT_MPS, POUND_KG, POUND_N};
+use logs::output;
 
 use crate::condition::{Condition, sweep};
 use crate::status::Status;
@@ -129,7 +129,7 @@ pub fn run(args: &Args) -> Result<Status> {
         rows.push((speed_kt, found));
     }
     if let Some(path) = &args.csv {
-        fs::write(path, csv(&rows)).with_context(|| format!("cannot write {}", path.display()))?;
+        output::write(path, &csv(&rows), &args.condition.files())?;
     }
     if args.sweep.is_some() {
         table(&rows);

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use engine::math::{atan2, min, sqrt};
 use engine::units::{degrees, knots};
 use engine::{Outputs, STEP_S, State};
+use logs::output::Output;
 use logs::text::size;
 use replay::{NewLog, Source, Window, names_parent, parent, rewrite};
 
@@ -76,13 +77,14 @@ pub fn run(args: &Args) -> Result<Status> {
     let window = Window { from_tick: Some(from_tick), until_tick, clamped };
     window.apply(&mut reader).with_context(name)?;
     let out = args.out.clone().unwrap_or_else(|| beside(log));
-    refuse_itself(log, &out)?;
     let identity = source
         .marks(names_parent(identity::identity(), log, &reader, "whatif"))
         .with(parent::CHANGES, changes.join("; "));
+    let inputs: Vec<&Path> =
+        [Some(log), args.aircraft.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
+    let output = Output::beside(&out, args.force, &inputs)?;
     let new = NewLog {
-        out: &out,
-        force: args.force,
+        out: &output,
         setup: &setup,
         identity: &identity,
         timing: false,
@@ -94,7 +96,7 @@ pub fn run(args: &Args) -> Result<Status> {
         apart.add(&tick.record.state, state, outputs);
     })
     .with_context(name)?;
-    let made = Made::of(&source, &out)?;
+    let made = Made::of(&source, output)?;
     say!("{}: {}", out.display(), changes.join("; "));
     say!(
         "{:.3} s to {:.3} s of {} by its recorded inputs, {}, digest {:016x}",
@@ -112,16 +114,6 @@ pub fn run(args: &Args) -> Result<Status> {
 fn beside(log: &Path) -> PathBuf {
     let stem = log.file_stem().unwrap_or_default().display().to_string();
     log.with_file_name(format!("{stem}-whatif.mcap"))
-}
-
-/// A log is not to be written over while it is read.
-pub fn refuse_itself(log: &Path, out: &Path) -> Result<()> {
-    if let (Ok(log), Ok(out)) = (log.canonicalize(), out.canonicalize())
-        && log == out
-    {
-        bail!("{}: the new log cannot be the old one", log.display());
-    }
-    Ok(())
 }
 
 /// How far the two flights came apart.

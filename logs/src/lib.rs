@@ -18,6 +18,7 @@ pub mod export;
 mod level;
 mod narrator;
 mod open;
+pub mod output;
 mod reader;
 pub mod records;
 mod recover;

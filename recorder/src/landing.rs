@@ -1,5 +1,7 @@
 //! What is known of a flight when it is over.
 
+use std::path::PathBuf;
+
 use engine::Outputs;
 use logs::{Closed, LogError};
 
@@ -14,6 +16,8 @@ pub struct Landing {
     pub statistics: Statistics,
     /// The log, or why it ends early.
     pub log: Result<Closed, LogError>,
+    /// An older log of the same name, when this one could not take its place.
+    pub set_aside: Option<PathBuf>,
     /// What the aircraft was like at the end.
     pub outputs: Outputs,
     /// Device events taken.

@@ -3,6 +3,7 @@
 //! It runs on the thread that flies, asks for no memory once it has begun, and waits for nothing but
 //! time; a flight that is not in real time waits for its writer instead.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
@@ -12,6 +13,7 @@ use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
 use flightgear::Link;
 #[cfg(feature = "sticks")]
 use logs::devices::DeviceIdentity;
+use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity};
 
@@ -53,6 +55,8 @@ pub(crate) struct Live<'a, S> {
     events: Vec<DeviceEvent>,
     events_taken: u64,
     recording: Recording,
+    /// Where the log goes.
+    output: Output,
     self_check: Option<SelfCheck>,
     link: Option<Link>,
     /// Real time; `None` flies as fast as it goes.
@@ -86,15 +90,15 @@ where
         let state = analysis::start::state_at(&flight.start, &aircraft)?;
         let world = flight.start.world.world();
         let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
+        let mut output = Output::flight(&flight.out, flight.force)?;
         #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to tell of"))]
         let mut writer = FlightWriter::create(
-            &flight.out,
+            output.file()?,
             &flight.setup,
             &identity,
             &aircraft,
             &flight.robot_description,
             &state,
-            flight.force,
         )?;
         #[cfg(feature = "sticks")]
         for (device, name) in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
@@ -107,6 +111,7 @@ where
                 ..Default::default()
             })?;
         }
+        output.begun()?;
         let (tell, told) = mpsc::channel();
         let mut recording = Recording::start(writer, &state, told);
         let found = Arc::clone(&progress.mismatches);
@@ -127,6 +132,7 @@ where
             events: Vec::with_capacity(EVENTS_A_TICK),
             events_taken: 0,
             recording,
+            output,
             self_check,
             link: flight.link,
             ticks_max: flight.ticks_max,
@@ -260,9 +266,13 @@ where
         let (sent, unsent) =
             self.link.as_ref().map_or((0, 0), |link| (link.sent(), link.dropped()));
         let (log, delay) = self.recording.finish();
+        let set_aside = self.output.set_aside().map(Path::to_path_buf);
+        let log = log.and_then(|closed| self.output.finish().map(|()| closed));
+        let set_aside = set_aside.filter(|_| log.is_err());
         Landing {
             statistics: self.statistics,
             log,
+            set_aside,
             outputs: self.outputs,
             events: self.events_taken,
             sent,

@@ -1,11 +1,11 @@
 //! Golden flights after a deliberate change of the model: flown anew, and what moved.
 
 use std::fmt;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use engine::math::sqrt;
 use engine::{STEP_S, State};
+use logs::output::Output;
 use logs::text::at;
 use logs::{Ending, Identity, LogError, OpenOptions, cdr};
 
@@ -123,10 +123,9 @@ fn fly(
     };
     let before = logs::closing(log).map_or(0, |(_, digest)| digest);
     let identity = inherited(identity, &reader.identity, before);
-    let temporary = beside(log, "new");
+    let out = Output::beside(log, true, &[])?;
     let new = NewLog {
-        out: &temporary,
-        force: true,
+        out: &out,
         setup: &setup,
         identity: &identity,
         timing: true,
@@ -157,21 +156,17 @@ fn fly(
             failure.get_or_insert(error);
         }
     })?;
-    let clean_up = |error| {
-        let _ = fs::remove_file(&temporary);
-        error
-    };
     if let Some(error) = failure {
-        return Err(clean_up(error.into()));
+        return Err(error.into());
     }
     if let Some(tick) = altered {
         let what = format!("it was changed after the flight: the digest breaks at tick {tick}");
-        return Err(clean_up(refused(&what)));
+        return Err(refused(&what));
     }
     match reader.ending() {
         Some(Ending::Closed) => {}
-        Some(Ending::Damaged(why)) => return Err(clean_up(refused(&format!("damaged: {why}")))),
-        _ => return Err(clean_up(refused("it was never closed"))),
+        Some(Ending::Damaged(why)) => return Err(refused(&format!("damaged: {why}"))),
+        _ => return Err(refused("it was never closed")),
     }
     let mut moved = Moved {
         groups: seen.largest.into_iter().flatten().collect(),
@@ -186,30 +181,20 @@ fn fly(
     };
     // What is the same already stays as it is.
     if write && !(moved.is_same() && moved.models.0 == moved.models.1) {
-        moved.bytes = take_place(log, &temporary, compacted).map_err(clean_up)?;
+        moved.bytes = take_place(log, out, compacted, moved.bytes)?;
     }
-    let _ = fs::remove_file(&temporary);
     Ok(moved)
 }
 
 /// Puts the new flight where the old one is, in the old one's form; returns its size.
-fn take_place(log: &Path, new: &Path, compacted: bool) -> Result<u64, ReplayError> {
-    let failed = |error| ReplayError::from(LogError::Io(error));
+fn take_place(log: &Path, new: Output, compacted: bool, bytes: u64) -> Result<u64, ReplayError> {
     if !compacted {
-        fs::rename(new, log).map_err(failed)?;
-        return Ok(fs::metadata(log).map_err(failed)?.len());
+        new.finish()?;
+        return Ok(bytes);
     }
-    let packed = beside(log, "compact");
-    let copied = logs::compact::compact(new, &packed, true, KEYFRAME_TICKS, flown, |_| ())?;
-    fs::rename(&packed, log).map_err(failed)?;
-    Ok(copied.bytes)
-}
-
-/// A file beside another one.
-pub fn beside(log: &Path, what: &str) -> PathBuf {
-    let mut name = log.as_os_str().to_owned();
-    name.push(format!(".{what}"));
-    name.into()
+    let packed =
+        logs::compact::compact(new.unfinished(), log, true, KEYFRAME_TICKS, flown, |_| ())?;
+    Ok(packed.bytes)
 }
 
 fn refused(what: &str) -> ReplayError {

@@ -20,7 +20,7 @@ mod versions;
 pub mod view;
 mod words;
 
-pub use bless::{KEYFRAME_TICKS, Largest, Moved, beside, bless};
+pub use bless::{KEYFRAME_TICKS, Largest, Moved, bless};
 pub use diff::{
     Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
 };

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use engine::{Inputs, Outputs, State, observe, step};
+use logs::output::Output;
 use logs::records::{EventRecord, Happening};
 use logs::view::Remark;
 use logs::{
@@ -37,10 +38,8 @@ pub mod parent {
 
 /// The log to be written.
 pub struct NewLog<'a> {
-    /// Where.
-    pub out: &'a Path,
-    /// Whether a file there may be overwritten.
-    pub force: bool,
+    /// Where; whoever asked for it finishes it.
+    pub out: &'a Output,
     /// What it is flown with.
     pub setup: &'a Setup,
     /// Who flies.
@@ -76,7 +75,7 @@ pub fn names_parent(identity: Identity, log: &Path, reader: &FlightReader, by: &
 
 /// Flies the inputs of `reader`, from where it stands, with the aircraft of the new log, from `initial`
 /// on, and writes all of it. `watch` sees every tick: as recorded, the state flown, and what could be
-/// observed. When anything fails, no file is left.
+/// observed.
 ///
 /// # Errors
 /// When the files of the new log cannot be read, the old one is not a whole flight as far as it is
@@ -95,13 +94,12 @@ pub fn rewrite(
         _ => aircraft::urdf(aircraft),
     };
     let mut writer = FlightWriter::create(
-        new.out,
+        new.out.file()?,
         new.setup,
         new.identity,
         aircraft,
         &shape,
         initial,
-        new.force,
     )?;
     let mut touchdown_ticks = Vec::new();
     let mut written = || -> Result<(), ReplayError> {
@@ -142,18 +140,8 @@ pub fn rewrite(
             _ => Ok(()),
         }
     };
-    let result = written();
-    let closed = match result {
-        Ok(()) => writer.finish().map_err(ReplayError::from),
-        Err(error) => {
-            drop(writer);
-            Err(error)
-        }
-    };
-    if closed.is_err() {
-        let _ = std::fs::remove_file(new.out);
-    }
-    Ok(Rewritten { closed: closed?, touchdown_ticks })
+    written()?;
+    Ok(Rewritten { closed: writer.finish()?, touchdown_ticks })
 }
 
 /// Takes over what viewers drew of a tick; `false` when there is nothing of it.

@@ -16,7 +16,8 @@ use super::proof::prove;
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted};
 use crate::container::checksums::add_message;
-use crate::container::{Index, LogFile, Record, RecordSource, create, stamped};
+use crate::container::{Index, LogFile, Record, RecordSource, stamped};
+use crate::output::Output;
 use crate::records::{StateRecord, time_ns};
 use crate::setup::{CLOSING, Identity, METADATA};
 use crate::{LogError, cdr};
@@ -35,6 +36,7 @@ pub fn compact(
     aircraft_of: AircraftOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Copied, LogError> {
+    let output = Output::beside(out, force, &[log])?;
     let mut from = LogFile::open(log)?.with_fingerprint();
     // What comes before the first message.
     let mut head = Vec::new();
@@ -46,7 +48,7 @@ pub fn compact(
             // Our writer defines all channels first, other programs when they need them.
             let later = Index::read(log).map(|index| index.definitions).unwrap_or_default();
             head.extend(later.into_iter().filter(|new| !head.contains(new)).collect::<Vec<_>>());
-            packing = Some(Pack::begin(&head, out, force, keyframe_ticks, aircraft_of)?);
+            packing = Some(Pack::begin(&head, output.file()?, keyframe_ticks, aircraft_of)?);
         }
         let Some(pack) = &mut packing else {
             head.push(record.clone());
@@ -80,7 +82,8 @@ pub fn compact(
     pack.to.finish()?;
     let file = pack.to.into_inner().into_inner().map_err(std::io::IntoInnerError::into_error)?;
     let bytes = file.metadata()?.len();
-    prove(log, out, aircraft_of)?;
+    prove(log, output.unfinished(), aircraft_of)?;
+    output.finish()?;
     Ok(Copied { bytes_before: original.bytes, bytes, states: pack.states, same_file: None })
 }
 
@@ -104,8 +107,7 @@ struct Pack {
 impl Pack {
     fn begin(
         head: &[Record],
-        out: &Path,
-        force: bool,
+        out: File,
         keyframe_ticks: u64,
         aircraft_of: AircraftOf,
     ) -> Result<Self, LogError> {
@@ -134,7 +136,7 @@ impl Pack {
             .profile(profile)
             .library(library)
             .disable_seeking(true)
-            .create(BufWriter::new(create(out, force)?))?;
+            .create(BufWriter::new(out))?;
         to.write_metadata(&facts(HEAD, [("version", VERSION.to_string())]))?;
         metadata.clone().try_for_each(|record| to.write_metadata(record))?;
         let schema = b"uint8[] data\n";

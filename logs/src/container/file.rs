@@ -266,17 +266,6 @@ impl RecordSource for LogFile {
     }
 }
 
-/// A file to be written.
-pub(crate) fn create(path: &Path, force: bool) -> Result<File, LogError> {
-    File::options()
-        .write(true)
-        .create(true)
-        .truncate(force)
-        .create_new(!force)
-        .open(path)
-        .map_err(|error| LogError::create(path, error))
-}
-
 /// Keeps the last bytes, as many as the magic number has.
 fn remember(tail: &mut Vec<u8>, read: &[u8]) {
     let kept = mcap::MAGIC.len();
