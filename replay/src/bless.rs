@@ -124,13 +124,8 @@ fn fly(
     let before = logs::closing(log).map_or(0, |(_, digest)| digest);
     let identity = inherited(identity, &reader.identity, before);
     let out = Output::beside(log, true, &[])?;
-    let new = NewLog {
-        out: &out,
-        setup: &setup,
-        identity: &identity,
-        timing: true,
-        picture_of: None,
-    };
+    let new =
+        NewLog { out: &out, setup: &setup, identity: &identity, timing: true, picture_of: None };
     let names = Names::of::<State>()?;
     let mut seen = Seen::new(&names, &reader.initial);
     seen.compare(&reader.initial, &initial)?;

@@ -93,14 +93,8 @@ pub fn rewrite(
         known if same_aircraft && !known.is_empty() => known.to_string(),
         _ => aircraft::urdf(aircraft),
     };
-    let mut writer = FlightWriter::create(
-        new.out.file()?,
-        new.setup,
-        new.identity,
-        aircraft,
-        &shape,
-        initial,
-    )?;
+    let mut writer =
+        FlightWriter::create(new.out.file()?, new.setup, new.identity, aircraft, &shape, initial)?;
     let mut touchdown_ticks = Vec::new();
     let mut written = || -> Result<(), ReplayError> {
         let mut narrator = Narrator::new(initial);
