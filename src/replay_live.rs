@@ -42,11 +42,15 @@ pub fn run(args: &Args) -> Result<Status> {
         .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
-    let pace = Pace::at_speed(args.speed);
-    let mut ticks = 0;
+    let mut pace = Pace::at_speed(args.speed);
+    let (mut ticks, mut slipped_ns) = (0, 0);
     let mut first_difference = None;
     while let Some(reflown) = flight.next_tick()? {
-        pace.wait(ticks);
+        let woken = pace.wait(ticks);
+        if woken.slip_ns > 0 {
+            slipped_ns += woken.slip_ns;
+            complain!("tiltrotor: {}", recorder::writer::slipped(woken.slip_ns));
+        }
         link.send(reflown.outputs);
         let exact = reflown.exact;
         flight.reader.forget();
@@ -69,6 +73,9 @@ pub fn run(args: &Args) -> Result<Status> {
         link.destination(),
         link.dropped()
     );
+    if slipped_ns > 0 {
+        say!("the clock slipped by {:.3} s in all", slipped_ns as f64 * 1e-9);
+    }
     let versions = flight.versions();
     if let Some(versions) = &versions {
         say!("{versions}");

@@ -72,6 +72,8 @@ pub struct TimingRecord {
     pub record_ns: u64,
     /// 1 when the tick ended after the next one was due.
     pub overrun: u64,
+    /// By so much the clock was anchored anew before the tick; 0 when it was not.
+    pub slip_ns: u64,
 }
 
 /// Something that happened.
@@ -83,6 +85,8 @@ pub struct EventRecord {
     pub kind: u64,
     /// Which one, how many, or which bits.
     pub value: u64,
+    /// What was measured.
+    pub measured: [f64; 2],
 }
 
 /// How grave an event is in `/log`.
@@ -153,13 +157,13 @@ engine::enumeration! {
         Paused = 6 {
             key: "paused", value: "1 paused, 0 going on", levels: Levels::always(Level::Info),
         }
-        /// The main wheels took weight or lost it.
+        /// The main wheels took weight or lost it; measured are sink and speed, m/s.
         WeightOnWheels = 7 {
             key: "weight_on_wheels", value: "1 touchdown, 0 lift-off", levels: Levels::always(Level::Info),
         }
         /// The flight was ended.
         Landed = 8 {
-            key: "landed", value: "0 as planned, 1 by the crew, 2 by a signal", levels: Levels::always(Level::Info),
+            key: "landed", value: "0 as planned, 1 by the crew, 2 by a signal, 3 a pilot gave up", levels: Levels::always(Level::Info),
         }
         /// A pilot model went on to its next phase.
         Phase = 9 {
@@ -172,6 +176,36 @@ engine::enumeration! {
         /// The log's writer was held up.
         WriterHeldUp = 11 {
             key: "writer_held_up", value: "for how long, ms", levels: Levels::always(Level::Warn),
+        }
+        /// The process had stood still, and the clock was anchored anew.
+        Slip = 12 {
+            key: "slip", value: "by how much, ms", levels: Levels::always(Level::Warn),
+        }
+        /// The aircraft hit the ground harder than it is designed for; measured are sink and speed, m/s.
+        Impact = 13 {
+            key: "impact", value: "0 beyond the gear's design, 1 beyond its reserve, 2 the hull",
+            levels: Levels::with_zero(Level::Warn, Level::Error),
+        }
+        /// The steady wind was set; measured are its speed, m/s, and whence it comes, deg.
+        Wind = 14 {
+            key: "wind", value: "1 wind, 0 calm", levels: Levels::always(Level::Info),
+        }
+        /// A gust begins; measured are its amplitude, m/s, and its duration, s.
+        Gust = 15 {
+            key: "gust", value: "the tick at which it begins", levels: Levels::always(Level::Info),
+        }
+        /// The turbulence was set; measured is its vertical intensity, m/s.
+        Turbulence = 16 {
+            key: "turbulence", value: "1 rough, 0 still air", levels: Levels::always(Level::Info),
+        }
+        /// The tanks are empty, and the engines stop.
+        Fuel = 17 {
+            key: "fuel", value: "the engines that go out by it, as failures have them",
+            levels: Levels::always(Level::Warn),
+        }
+        /// A pilot model gave up its task.
+        GaveUp = 18 {
+            key: "gave_up", value: "number of the phase", levels: Levels::always(Level::Warn),
         }
     }
 }

@@ -20,10 +20,10 @@ pub mod statistics;
 pub mod sticks;
 pub mod writer;
 
-pub use clock::Pace;
+pub use clock::{Pace, Woken};
 pub use flight::{Flight, FlyError};
-pub use hands::{Hands, Reach};
-pub use landing::Landing;
+pub use hands::{GaveUp, Hands, Reach};
+pub use landing::{End, Landing};
 pub use live::fly;
 pub use progress::{Progress, Snapshot};
 pub use rehearsal::{RehearsedTick, rehearse};

@@ -5,7 +5,7 @@ use std::path::Path;
 use engine::{Inputs, Outputs, State, observe, step};
 use logs::records::{EventRecord, Happening};
 use logs::view::Remark;
-use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Setup, Tick};
+use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Observed, Setup, Tick};
 
 use crate::refly::{ReplayError, read};
 
@@ -91,7 +91,7 @@ pub fn rewrite(
     )?;
     let mut touchdown_ticks = Vec::new();
     let mut written = || -> Result<(), ReplayError> {
-        let mut narrator = Narrator::new(initial);
+        let mut narrator = Narrator::new(initial, &aircraft.envelope.airframe);
         let mut state = *initial;
         if state.tick == 0 {
             let seen = observe(aircraft, &state, &flown.world);
@@ -110,13 +110,12 @@ pub fn rewrite(
             let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
             let (next, outputs) = step(aircraft, &state, &inputs);
             state = next;
-            writer.state(&state)?;
-            narrator.state(&mut writer, &state)?;
             for timing in reader.timings.drain(..).filter(|_| new.timing) {
                 writer.timing(&timing)?;
             }
+            writer.state(&state)?;
+            narrator.state(&mut writer, &state, &Observed::of(&outputs))?;
             writer.view(&outputs, state.plant.attitude)?;
-            narrator.outputs(&mut writer, &outputs)?;
             watch(&reader.tick, &state, &outputs, reader);
         }
         crew_said(reader, &mut writer, &mut touchdown_ticks)?;
@@ -151,9 +150,10 @@ fn crew_said(
         |event: &&EventRecord| event.kind == Happening::WeightOnWheels as u64 && event.value == 1;
     touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
     for (event, remark) in happenings.iter().zip(&remarks) {
-        if let Some(what @ (Happening::Phase | Happening::Landed)) = Happening::from_u64(event.kind)
+        if let Some(what @ (Happening::Phase | Happening::Landed | Happening::GaveUp)) =
+            Happening::from_u64(event.kind)
         {
-            writer.happened(event.tick, what, event.value, &remark.words)?;
+            writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
         }
     }
     Ok(())
