@@ -152,6 +152,8 @@ pub fn is_whole(landing: &Landing) -> bool {
 pub struct Plan {
     /// What will be flown.
     pub flight: Flight,
+    /// The pipe that the log goes into, if it does, kept open.
+    pipe: Option<fs::File>,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
 }
@@ -181,7 +183,10 @@ impl Plan {
                 common.out.display()
             );
         }
+        let pipe = recorder::pipe::take(&common.out)
+            .with_context(|| format!("cannot write {}", common.out.display()))?;
         Ok(Self {
+            pipe,
             phases: Vec::new(),
             flight: Flight {
                 aircraft,
@@ -265,7 +270,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, phases } = self;
+        let Self { flight, pipe: _pipe, phases } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();

@@ -4,8 +4,8 @@ use engine::STEP_S;
 use engine::units::degrees;
 use logs::LogError;
 use logs::text::size;
-use recorder::{End, Landing};
 use recorder::statistics::Durations;
+use recorder::{End, Landing};
 use replay::ReplayError;
 
 /// Why a log is not reflown, and what can be done about it.

@@ -1,5 +1,6 @@
 //! Tells in events what the numbers say: markers, failures, weather, devices, fuel, validity, wheels.
 
+mod observed;
 mod validity;
 mod wheels;
 
@@ -7,8 +8,9 @@ use engine::State;
 use engine::envelope::Airframe;
 use engine::inputs::{DeviceEvent, EventKind, Failures, World};
 use engine::math::atan2;
-use engine::outputs::{Outputs, Validity};
 use engine::units::{degrees, knots};
+
+pub use observed::Observed;
 
 use crate::records::{Happening, InputsRecord};
 use crate::{FlightWriter, LogError};
@@ -22,38 +24,6 @@ pub struct Narrator {
     has_fuel: bool,
     validity: validity::Told,
     wheels: wheels::Told,
-}
-
-/// What is looked at after every tick.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Observed {
-    /// Where the answer is not to be trusted.
-    pub validity: Validity,
-    /// Downwards.
-    pub sink_mps: f64,
-    /// Over the ground, level.
-    pub ground_speed_mps: f64,
-    /// Whether a wheel touches the ground.
-    pub on_ground: bool,
-}
-
-impl Observed {
-    /// Of a tick's outputs.
-    pub fn of(outputs: &Outputs) -> Self {
-        let (v, legs) = (outputs.velocity_mps, &outputs.landing_gear);
-        let push_n = legs.nose.push_n + legs.main.map(|leg| leg.push_n).sum();
-        Self {
-            validity: outputs.validity,
-            sink_mps: v.z,
-            ground_speed_mps: engine::math::sqrt(v.x * v.x + v.y * v.y),
-            on_ground: push_n > 0.0,
-        }
-    }
-
-    /// Sink and speed, as an event has them.
-    fn measured(&self) -> [f64; 2] {
-        [self.sink_mps, self.ground_speed_mps]
-    }
 }
 
 impl Narrator {
@@ -165,7 +135,9 @@ impl Narrator {
         }
         self.has_fuel = has_fuel;
         self.wheels.look(writer, state, seen)?;
-        self.validity.look(writer, state.tick, seen.validity)
+        let Some(words) = self.validity.look(state.tick, seen.validity) else { return Ok(()) };
+        let flags = self.validity.flags.bits();
+        writer.happened(state.tick, Happening::Validity, flags, [0.0; 2], &words)
     }
 }
 

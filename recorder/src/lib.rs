@@ -6,11 +6,13 @@
 
 mod clock;
 mod crew;
+mod end;
 mod flight;
 mod hands;
 mod landing;
 mod live;
 pub mod pilots;
+pub mod pipe;
 mod progress;
 mod rehearsal;
 pub mod script;
@@ -21,9 +23,10 @@ pub mod sticks;
 pub mod writer;
 
 pub use clock::{Pace, Woken};
+pub use end::End;
 pub use flight::{Flight, FlyError};
 pub use hands::{GaveUp, Hands, Reach};
-pub use landing::{End, Landing};
+pub use landing::Landing;
 pub use live::fly;
 pub use progress::{Progress, Snapshot};
 pub use rehearsal::{RehearsedTick, rehearse};

@@ -15,8 +15,9 @@ use logs::{FlightWriter, Identity, Observed};
 
 use crate::clock::{Pace, Woken, claim_real_time, now_ns, wall_ns};
 use crate::crew::Crew;
+use crate::end::End;
 use crate::flight::{Flight, FlyError};
-use crate::landing::{End, Landing};
+use crate::landing::Landing;
 use crate::progress::Progress;
 use crate::self_check::SelfCheck;
 use crate::statistics::Statistics;

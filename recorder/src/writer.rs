@@ -18,7 +18,7 @@ use logs::{Closed, FlightWriter, LogError, Narrator, Observed};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::clock::{Awake, now_ns};
-use crate::landing::End;
+use crate::end::End;
 use crate::self_check::Mismatch;
 
 /// Entries the ring holds: three a tick, twenty seconds and some.

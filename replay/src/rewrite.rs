@@ -5,7 +5,9 @@ use std::path::Path;
 use engine::{Inputs, Outputs, State, observe, step};
 use logs::records::{EventRecord, Happening};
 use logs::view::Remark;
-use logs::{Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Observed, Setup, Tick};
+use logs::{
+    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Observed, Setup, Tick,
+};
 
 use crate::refly::{ReplayError, read};
 

@@ -4,7 +4,7 @@ use engine::State;
 use engine::envelope::Airframe;
 use engine::outputs::Validity;
 
-use super::Observed;
+use super::observed::Observed;
 use crate::records::Happening;
 use crate::{FlightWriter, LogError};
 
@@ -67,7 +67,10 @@ impl Told {
         }
         let beyond = self.contact[0] > self.reserve_sink_mps_max;
         let what = if beyond {
-            format!("hard landing beyond the gear's reserve of {:.2} m/s", self.reserve_sink_mps_max)
+            format!(
+                "hard landing beyond the gear's reserve of {:.2} m/s",
+                self.reserve_sink_mps_max
+            )
         } else {
             format!("hard landing, the gear is designed for {limit_mps:.2} m/s")
         };
@@ -88,6 +91,7 @@ fn impact(
 
 /// `, sinking 0.30 m/s at 1.2 m/s over the ground`.
 fn said([sink_mps, speed_mps]: [f64; 2]) -> String {
-    let (way, sink_mps) = if sink_mps < 0.0 { ("climbing", -sink_mps) } else { ("sinking", sink_mps) };
+    let (way, sink_mps) =
+        if sink_mps < 0.0 { ("climbing", -sink_mps) } else { ("sinking", sink_mps) };
     format!(", {way} {sink_mps:.2} m/s at {speed_mps:.2} m/s over the ground")
 }
