@@ -16,6 +16,7 @@ use serde::Serialize;
 use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
 use crate::container::checksums::{RollCall, seal};
 use crate::container::{RECORD_BYTES_MAX, create, stamped};
+use crate::devices::DeviceIdentity;
 use crate::reader::Message;
 use crate::records::{
     Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest,
@@ -170,6 +171,15 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn timing(&mut self, timing: &TimingRecord) -> Result<(), LogError> {
         self.record(ChannelId::Timing, timing.tick, timing)
+    }
+
+    /// An input device that was found.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn device(&mut self, device: &DeviceIdentity) -> Result<(), LogError> {
+        let message = device.encode()?;
+        self.put(ChannelId::Devices, device.tick, &message)
     }
 
     /// Something that happened, as a record and in words.

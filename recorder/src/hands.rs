@@ -47,6 +47,7 @@ impl Reach<'_> {
             kind: kind as u64,
             code,
             value,
+            ..DeviceEvent::default()
         });
     }
 }
