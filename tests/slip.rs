@@ -159,9 +159,9 @@ fn a_flight_whose_terminal_hangs_up_lands() {
     let (program, _picture) = flight(&log, "60");
     sleep(Duration::from_millis(300));
     signal("HUP", program.id());
-    landed(program).ends(OK).says("end        ended by SIGHUP").says("nothing dropped");
+    landed(program).ends(OK).says("end        ended by a signal: SIGHUP").says("nothing dropped");
     verify(&log).ends(OK).says("the log ends as its writer closed it");
-    tiltrotor(&["log", "info", text(&log)]).ends(OK).says("ended by SIGHUP");
+    tiltrotor(&["log", "info", text(&log)]).ends(OK).says("ended by a signal: SIGHUP");
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn a_flight_whose_log_may_not_grow_any_further_lands() {
     );
     let output = Command::new("sh").args(["-c", &line]).output().expect("sh runs");
     let said = understood(&line, &output).ends(LOG_CUT_SHORT);
-    let said = said.says("ends before the flight did").says("end        ended by SIGXFSZ");
+    let said = said.says("ends before the flight did").says("end        ended by a signal: SIGXFSZ");
     assert!(!said.out.contains("flown      60.0 s"), "{said}");
     verify(&log).ends(INCOMPLETE).says("exact up to tick ");
 }

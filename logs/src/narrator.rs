@@ -140,7 +140,8 @@ impl Narrator {
             let words = format!("fuel exhausted; out by it: {out}");
             writer.happened(state.tick, Happening::Fuel, out.bits(), [0.0; 2], &words)?;
         }
-        self.has_fuel = has_fuel;
+        // Nobody fills the tanks in flight; a drop that comes back by rounding is none.
+        self.has_fuel &= has_fuel;
         self.wheels.look(writer, state, seen)?;
         let Some(words) = self.validity.look(state.tick, seen.validity) else { return Ok(()) };
         let flags = self.validity.flags.bits();

@@ -33,7 +33,7 @@ impl std::fmt::Display for End {
             Self::Done => f.write_str("end of the flight: the hands are done"),
             Self::TimeUp => f.write_str("end of the flight: the time given is over"),
             Self::Stopped(None) => f.write_str("ended by the crew"),
-            Self::Stopped(Some(signal)) => write!(f, "ended by {signal}"),
+            Self::Stopped(Some(signal)) => write!(f, "ended by a signal: {signal}"),
             Self::GaveUp(gave_up) => write!(f, "end of the flight: {gave_up}"),
         }
     }

@@ -57,12 +57,16 @@ pub struct Snapshot {
 
 impl Progress {
     /// Lets SIGINT, SIGTERM, SIGHUP and SIGXFSZ end the flight: the log is finished and the summary
-    /// printed.
+    /// printed. Who has the last two ignored, as `nohup` does, wants the flight to go on.
     ///
     /// # Errors
     /// When the system refuses the handlers.
     pub fn stop_on_signals(&self) -> std::io::Result<()> {
+        let ignored = ignored();
         for (number, (signal, _)) in (1..).zip(ENDING) {
+            if matches!(signal, SIGHUP | SIGXFSZ) && ignored & 1 << (signal - 1) != 0 {
+                continue;
+            }
             // The name first: whoever sees that it should end can say why.
             signal_hook::flag::register_usize(signal, Arc::clone(&self.signal), number)?;
             signal_hook::flag::register(signal, Arc::clone(&self.stop))?;
@@ -110,4 +114,12 @@ impl Progress {
         self.overruns.store(overruns, Ordering::Relaxed);
         self.log_failed.store(log_failed, Ordering::Relaxed);
     }
+}
+
+/// The signals that whoever started this process has it ignore, a bit each from signal 1 on; none where
+/// the system does not tell.
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
