@@ -51,7 +51,7 @@ pub fn run(args: &Args) -> Result<Status> {
     };
     #[cfg(feature = "rerun")]
     {
-        let bytes = crate::view::save(out, &saved, &replay::Window::default())?;
+        let (bytes, _) = crate::view::save(out, &saved, &replay::Window::default())?;
         say!("{}: {}, for `rerun {0}`", saved.display(), logs::text::size(bytes));
     }
     Ok(status)

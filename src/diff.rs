@@ -66,11 +66,13 @@ pub fn run(args: &Args) -> Result<Status> {
 }
 
 fn status(diff: &Diff) -> Status {
-    match (diff.usable(), diff.same()) {
+    let compared = match (diff.usable(), diff.same()) {
         (false, _) => Status::Unusable,
         (true, true) => Status::Done,
         (true, false) => Status::Differs,
-    }
+    };
+    let sides = [&diff.a, &diff.b].map(|side| Status::from(&side.judgement));
+    Status::gravest([compared].into_iter().chain(sides))
 }
 
 fn tell(args: &Args, diff: &Diff) {
@@ -96,6 +98,7 @@ fn tell(args: &Args, diff: &Diff) {
             say!("compared: {} ticks, from {} to {}", diff.ticks, at(from), at(to));
         }
     }
+    tell_irregular(diff);
     tell_inputs(diff, most);
     tell_states(diff, most);
     if diff.usable() {
@@ -105,6 +108,19 @@ fn tell(args: &Args, diff: &Diff) {
             "not usable to its end: {}",
             if diff.same() { "the same up to there" } else { "they differ" }
         );
+    }
+}
+
+/// What the same states of two logs that are not regular are worth.
+fn tell_irregular(diff: &Diff) {
+    for (name, side) in [("A", &diff.a), ("B", &diff.b)] {
+        if let Some(irregular) = side.irregular {
+            say!(
+                "{name} is not regular: {irregular}; {} ticks are missing, {} are there once more",
+                side.missing,
+                side.doubled
+            );
+        }
     }
 }
 
@@ -205,6 +221,8 @@ fn in_json(args: &Args, diff: &Diff) -> Value {
             "last_tick": side.last_tick,
             "digest": format!("{:016x}", side.digest),
             "judgement": json::judgement(&side.judgement),
+            "ticks_missing": side.missing,
+            "ticks_doubled": side.doubled,
             "end": json::end(&side.end),
         })
     };

@@ -37,6 +37,7 @@ pub fn end(end: &End) -> Value {
 pub fn divergence(divergence: &Divergence) -> Value {
     json!({
         "tick": divergence.tick,
+        "after_tick": divergence.after_tick,
         "time_s": divergence.tick as f64 * STEP_S,
         "stage": divergence.stage.map(Stage::name),
         "or_before": divergence.stage.and_then(Stage::or_before),
@@ -89,6 +90,7 @@ fn single(single: &SingleSteps) -> Value {
         "differing": single.differing,
         "first_stages": stages(&single.first_stages, "ticks"),
         "blocks_compared_ticks": single.outputs,
+        "between_keyframes": single.between_keyframes,
         "block": single.block.as_ref().map(|block| json!({
             "tick": block.tick,
             "stage": block.stage.name(),

@@ -1,10 +1,10 @@
 //! `tiltrotor log`.
 
 mod cat;
+mod clip;
 mod compact;
 mod export;
 mod find;
-mod trim;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,6 +15,7 @@ use logs::evolution::Difference;
 use logs::text::{at, size};
 use logs::{Ending, LogError, Messages, OpenOptions};
 use recorder::statistics::Statistics;
+use replay::{Facts, Window};
 
 use crate::status::Status;
 use crate::window::WindowArgs;
@@ -41,7 +42,9 @@ pub enum Command {
         window: WindowArgs,
     },
     /// A part of a log as a log of its own, which names its parent; or as a golden flight
-    Trim(trim::Args),
+    // The name that it had, for one version more.
+    #[command(alias = "trim")]
+    Clip(clip::Args),
     /// Inputs, keyframes and digests kept, states dropped: they can be flown again
     Compact(compact::CompactArgs),
     /// The log that was compacted, to the byte
@@ -67,7 +70,7 @@ pub fn run(command: &Command) -> Result<Status> {
         Command::Find(args) => find::run(args),
         Command::Export(args) => export::run(args),
         Command::Summary { log, window } => summary(log, window),
-        Command::Trim(args) => trim::run(args),
+        Command::Clip(args) => clip::run(args),
         Command::Compact(args) => compact::compact(args),
         Command::Expand(args) => compact::expand(args),
         Command::Recover { broken, out, force } => recover(broken, out, *force),
@@ -101,6 +104,7 @@ fn info(log: &Path) -> Result<Status> {
         say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
     }
     let (mut events, mut digest) = (0, 0);
+    let mut facts = Facts::of_reading(&reader);
     let start = reader.initial.tick;
     let mut last = start;
     let mut statistics = Statistics::new();
@@ -110,6 +114,7 @@ fn info(log: &Path) -> Result<Status> {
                 last = tick.record.state.tick;
                 events += tick.events.len();
                 digest = tick.record.digest;
+                facts.add(tick, None);
             }
             Ok(None) => break None,
             Err(error @ (LogError::Order(_) | LogError::Decode(_))) => break Some(error),
@@ -121,6 +126,9 @@ fn info(log: &Path) -> Result<Status> {
     };
     let ticks = last.saturating_sub(start);
     say!("  {:<16} {:.3} s, {ticks} ticks", "flown", ticks as f64 * STEP_S);
+    if let Some(irregular) = facts.irregular {
+        say!("  {:<16} {irregular}", "not regular");
+    }
     if start != 0 {
         say!("  {:<16} {}", "begins at", at(start));
     }
@@ -156,6 +164,8 @@ fn info(log: &Path) -> Result<Status> {
     for remark in &reader.remarks {
         say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }
+    facts.end(&reader, disorder.as_ref().map(ToString::to_string), &Window::default());
+    let judgement = facts.judge();
     let ending = match (disorder, reader.ending()) {
         (Some(error), _) => format!("unusable from here: {error}"),
         (None, Some(Ending::Closed)) => "closed".into(),
@@ -166,7 +176,11 @@ fn info(log: &Path) -> Result<Status> {
         (None, _) => "not closed: killed, or cut".into(),
     };
     say!("  {:<16} {ending}", "end of the log");
-    Ok(if ending == "closed" { Status::Done } else { Status::Unusable })
+    say!("  {:<16} {judgement}", "judgement");
+    if let Some(origin) = &facts.origin {
+        say!("  {:<16} {origin}", "origin");
+    }
+    Ok(Status::from(&judgement))
 }
 
 fn summary(log: &Path, window: &WindowArgs) -> Result<Status> {

@@ -24,6 +24,7 @@ mod identity;
 mod json;
 mod linearize;
 mod log;
+mod made;
 mod replay_live;
 mod report;
 mod status;

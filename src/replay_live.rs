@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow, bail};
 use engine::STEP_S;
 use flightgear::Link;
-use logs::Ending;
 use recorder::Pace;
-use replay::{Reflight, ReflyOptions};
+use replay::judgement::disorder;
+use replay::{Facts, Reflight, ReflyOptions};
 
 use crate::report;
 use crate::status::Status;
@@ -44,8 +44,14 @@ pub fn run(args: &Args) -> Result<Status> {
     let mut link = Link::new(&args.flightgear)?;
     let mut pace = Pace::at_speed(args.speed);
     let (mut ticks, mut slipped_ns) = (0, 0);
-    let mut first_difference = None;
-    while let Some(reflown) = flight.next_tick()? {
+    let mut told = false;
+    let mut facts = Facts::of_reflight(&flight);
+    let disorder = loop {
+        let reflown = match flight.next_tick() {
+            Ok(Some(reflown)) => reflown,
+            Ok(None) => break None,
+            Err(error) => break Some(disorder(error)?),
+        };
         let woken = pace.wait(ticks);
         if woken.slip_ns > 0 {
             slipped_ns += woken.slip_ns;
@@ -53,16 +59,17 @@ pub fn run(args: &Args) -> Result<Status> {
         }
         link.send(reflown.outputs);
         let exact = reflown.exact;
+        facts.add(reflown.recorded, Some(exact));
         flight.reader.forget();
         ticks += 1;
-        if !exact && first_difference.is_none() {
-            first_difference = Some(ticks);
+        if !exact && !std::mem::replace(&mut told, true) {
             complain!(
                 "tiltrotor: from {:.3} s on this is not the recorded flight; `tiltrotor verify` says more",
                 (start + ticks) as f64 * STEP_S
             );
         }
-    }
+    };
+    facts.end_of_reflight(&mut flight, disorder, &window);
     say!(
         "{}: {:.1} s reflown from {:.3} s on at {} times real time, {} packets sent to {}, {} not",
         args.log.display(),
@@ -76,22 +83,10 @@ pub fn run(args: &Args) -> Result<Status> {
     if slipped_ns > 0 {
         say!("the clock slipped by {:.3} s in all", slipped_ns as f64 * 1e-9);
     }
-    let versions = flight.versions();
-    if let Some(versions) = &versions {
+    if let Some(versions) = &flight.versions() {
         say!("{versions}");
     }
-    let comparison = versions.is_some_and(|versions| versions.comparison());
-    match flight.ending() {
-        Ending::Closed | Ending::Truncated if comparison => Ok(Status::Compared),
-        Ending::Closed if first_difference.is_some() => Ok(Status::Differs),
-        Ending::Closed => Ok(Status::Done),
-        Ending::Truncated => {
-            let log = args.log.display();
-            complain!("tiltrotor: {log}: it ends there without having been closed");
-            Ok(Status::NeverClosed)
-        }
-        Ending::Damaged(why) => {
-            bail!("{}: the file is damaged after that: {why}", args.log.display())
-        }
-    }
+    let judgement = facts.judge();
+    say!("{judgement}");
+    Ok(Status::from(&judgement))
 }

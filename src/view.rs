@@ -32,8 +32,9 @@ mod with_rerun {
     use anyhow::{Context, bail};
     use engine::STEP_NS;
     use logs::text::{at, size};
-    use replay::view::{DrawError, FlightView, Other, Severity, draw_against};
-    use replay::{Reflight, ReflyOptions, Window};
+    use replay::judgement::disorder;
+    use replay::view::{DrawError, FlightView, Other, Severity, draw_against, severity};
+    use replay::{Facts, Reflight, ReflyOptions, Window};
 
     use super::{Args, Result, Status};
 
@@ -44,10 +45,10 @@ mod with_rerun {
             bail!("{} exists; overwrite it with --force", saved.display());
         }
         let window = args.window.of(&args.log)?;
-        let bytes = match &args.against {
+        let (bytes, status) = match &args.against {
             Some(_) if window != Window::default() => {
                 bail!(
-                    "--against shows whole flights; `tiltrotor log trim` makes logs of their parts"
+                    "--against shows whole flights; `tiltrotor log clip` makes logs of their parts"
                 )
             }
             Some(other) => save_against(&args.log, Other::Log(other), &saved)?,
@@ -62,11 +63,11 @@ mod with_rerun {
                 )
             })?;
         }
-        Ok(Status::Done)
+        Ok(status)
     }
 
-    /// Draws the log and what is beside it into a recording; returns its size.
-    fn save_against(log: &Path, other: Other, saved: &Path) -> Result<u64> {
+    /// Draws the log and what is beside it into a recording; returns its size, and the status of the gravest of the two.
+    fn save_against(log: &Path, other: Other, saved: &Path) -> Result<(u64, Status)> {
         let drawn = draw_against(log, other, saved).map_err(|error| match (&error, other) {
             // Which of the two logs it was is not known here.
             (DrawError::Replay(_), Other::Log(other)) => {
@@ -81,20 +82,35 @@ mod with_rerun {
             }
             None => say!("no difference"),
         }
-        Ok(drawn.bytes)
+        drawn.judgements.iter().for_each(|judgement| say!("{judgement}"));
+        Ok((drawn.bytes, Status::gravest(drawn.judgements.iter().map(Status::from))))
     }
 
-    /// Reflies the log into a recording; returns its size.
-    pub fn save(log: &Path, saved: &Path, window: &Window) -> Result<u64> {
+    /// Reflies the log into a recording, whose first event says what the log is; returns its size and the
+    /// status.
+    pub fn save(log: &Path, saved: &Path, window: &Window) -> Result<(u64, Status)> {
         let options = ReflyOptions { window: *window, across_versions: false };
         let mut flight =
             Reflight::open(log, &options).with_context(|| log.display().to_string())?;
         let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
         let mut view = FlightView::new(saved, &title, &flight.aircraft)?;
-        while let Some(reflown) = flight.next_tick()? {
-            view.push(reflown.outputs);
+        let mut facts = Facts::of_reflight(&flight);
+        let start_tick = flight.state.tick;
+        let disorder = loop {
+            match flight.next_tick() {
+                Ok(Some(reflown)) => {
+                    view.push(reflown.outputs);
+                    facts.add(reflown.recorded, Some(reflown.exact));
+                }
+                Ok(None) => break None,
+                Err(error) => break Some(disorder(error)?),
+            }
             flight.reader.timings.clear();
-        }
+        };
+        facts.end_of_reflight(&mut flight, disorder, window);
+        let judgement = facts.judge();
+        view.event(start_tick, severity(&judgement), &judgement.words);
+        say!("{}: {judgement}", log.display());
         for remark in &flight.reader.remarks {
             let level = match remark.level {
                 logs::view::Level::Info => Severity::Info,
@@ -103,7 +119,7 @@ mod with_rerun {
             };
             view.event(remark.time_ns / STEP_NS, level, &remark.words);
         }
-        Ok(view.finish()?)
+        Ok((view.finish()?, Status::from(&judgement)))
     }
 }
 

@@ -7,9 +7,10 @@ use engine::math::{atan2, min, sqrt};
 use engine::units::{degrees, knots};
 use engine::{Outputs, STEP_S, State};
 use logs::text::size;
-use replay::{NewLog, Window, names_parent, parent, rewrite};
+use replay::{NewLog, Source, Window, names_parent, parent, rewrite};
 
 use crate::identity;
+use crate::made::Made;
 use crate::status::Status;
 use crate::window::When;
 
@@ -42,6 +43,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Status> {
     let log = &args.log;
     let name = || log.display().to_string();
+    let source = Source::proven(log, "not flown").with_context(name)?;
     let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
     let mut setup = reader.setup.clone();
     let mut changes = Vec::new();
@@ -75,16 +77,24 @@ pub fn run(args: &Args) -> Result<Status> {
     window.apply(&mut reader).with_context(name)?;
     let out = args.out.clone().unwrap_or_else(|| beside(log));
     refuse_itself(log, &out)?;
-    let identity = names_parent(identity::identity(), log, &reader, "whatif")
+    let identity = source
+        .marks(names_parent(identity::identity(), log, &reader, "whatif"))
         .with(parent::CHANGES, changes.join("; "));
-    let new =
-        NewLog { out: &out, force: args.force, setup: &setup, identity: &identity, timing: false };
+    let new = NewLog {
+        out: &out,
+        force: args.force,
+        setup: &setup,
+        identity: &identity,
+        timing: false,
+        picture_of: Some(log),
+    };
     let initial = reader.initial;
     let mut apart = Apart::default();
     let written = rewrite(&mut reader, &initial, &new, |tick, state, outputs, _| {
         apart.add(&tick.record.state, state, outputs);
     })
     .with_context(name)?;
+    let made = Made::of(&source, &out)?;
     say!("{}: {}", out.display(), changes.join("; "));
     say!(
         "{:.3} s to {:.3} s of {} by its recorded inputs, {}, digest {:016x}",
@@ -96,7 +106,7 @@ pub fn run(args: &Args) -> Result<Status> {
     );
     apart.say();
     say!("`tiltrotor diff {} {}` says more", log.display(), out.display());
-    Ok(Status::Done)
+    Ok(made.say(log))
 }
 
 fn beside(log: &Path) -> PathBuf {

@@ -235,12 +235,12 @@ fn a_log_that_does_not_refly_is_not_compacted() {
     forgery.write(&log);
     tiltrotor(&["log", "compact", text(&log)])
         .ends(UNUSABLE)
-        .says("not compacted: tick 777 does not refly to the recorded bits");
+        .says("not compacted: altered at tick 777 (3.108 s)");
     assert!(!log.with_file_name("forged-compact.mcap").exists());
-    tiltrotor(&["log", "trim", text(&log), "--from", "3"])
+    tiltrotor(&["log", "clip", text(&log), "--from", "3"])
         .ends(UNUSABLE)
-        .says("not cut: from tick 777");
-    assert!(!log.with_file_name("forged-trim.mcap").exists());
+        .says("not cut: altered at tick 777 (3.108 s)");
+    assert!(!log.with_file_name("forged-clip.mcap").exists());
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn a_compacted_log_of_another_model_is_refused_by_name() {
 #[test]
 fn a_part_of_a_log_is_a_log_that_names_its_parent() {
     let out = folder("reflight-part").join("part.mcap");
-    let part = ["log", "trim", text(marked()), "--around", "marker:2", "--window", "1"];
+    let part = ["log", "clip", text(marked()), "--around", "marker:2", "--window", "1"];
     tiltrotor(&[&part[..], &["--out", text(&out)]].concat()).ends(OK).says("500 ticks");
     verify(&out).ends(OK).says("from tick 1001 (4.004 s) on");
     let info =
@@ -275,7 +275,7 @@ fn a_part_of_a_log_is_a_log_that_names_its_parent() {
     let whole = states(marked(), 1001, 1501);
     let part = states(&out, 1001, u64::MAX);
     assert!(whole.iter().map(|s| s.state).eq(part.iter().map(|s| s.state)), "the same states");
-    // A part of the part, by the parent's time.
+    // A part of the part, by the parent's time, and by the name that the verb had.
     let smaller = out.with_file_name("smaller.mcap");
     let trim = ["log", "trim", text(&out), "--from", "4.5", "--until", "5", "--out"];
     tiltrotor(&[&trim[..], &[text(&smaller)]].concat()).ends(OK).says("125 ticks");

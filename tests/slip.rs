@@ -175,7 +175,8 @@ fn a_flight_whose_log_may_not_grow_any_further_lands() {
     );
     let output = Command::new("sh").args(["-c", &line]).output().expect("sh runs");
     let said = understood(&line, &output).ends(LOG_CUT_SHORT);
-    let said = said.says("ends before the flight did").says("end        ended by a signal: SIGXFSZ");
+    let said =
+        said.says("ends before the flight did").says("end        ended by a signal: SIGXFSZ");
     assert!(!said.out.contains("flown      60.0 s"), "{said}");
     verify(&log).ends(INCOMPLETE).says("exact up to tick ");
 }

@@ -72,6 +72,9 @@ pub enum LogError {
         /// The first such tick.
         tick: u64,
     },
+    /// What was compacted does not come back.
+    #[error("not compacted: expanded again, it is not the log that it was: {0}")]
+    NotTheSame(&'static str),
     /// The tick is not in the log.
     #[error("{}", outside(*tick, *first, *last))]
     Outside {

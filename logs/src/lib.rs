@@ -30,7 +30,7 @@ pub use codec::{cdr, evolution, fields, layout, schema, units};
 pub use error::LogError;
 pub use narrator::{Narrator, Observed};
 pub use open::OpenOptions;
-pub use reader::{Ending, FlightReader, Message, Messages, Tick, closing, marker, open};
+pub use reader::{Ending, FlightReader, Message, Messages, Remade, Tick, closing, marker, open};
 pub use recover::{Recovery, recover};
 pub use setup::{Identity, Setup};
 pub use writer::{Closed, FlightWriter};

@@ -232,6 +232,18 @@ impl FlightWriter {
         Ok(true)
     }
 
+    /// What viewers drew in another log, message for message; `false` of what they did not draw.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn picture(&mut self, message: &Message) -> Result<bool, LogError> {
+        let drawn = |channel: &&Channel| matches!(channel.written, Written::FromOutputs { .. });
+        match message.channel().filter(drawn).filter(|_| message.is_todays()) {
+            Some(channel) => self.stamped(channel.id, message.header, &message.data).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
     /// Tick of the last state.
     pub(crate) fn last_tick(&self) -> u64 {
         self.last_tick

@@ -10,8 +10,11 @@ use logs::text::at;
 use logs::{Ending, Identity, LogError, OpenOptions, cdr};
 
 use crate::compare::Names;
+use crate::judgement::{Judgement, Outcome};
+use crate::outputs::{OutputsCheck, OutputsDifference, are_todays};
 use crate::refly::{OPEN, ReplayError, flown, read};
 use crate::rewrite::{NewLog, parent, rewrite};
+use crate::source::Source;
 use crate::summary::{Gathered, Touchdown};
 
 /// Ticks between the keyframes of a compacted golden flight. What moved is seen at keyframes only, so
@@ -25,6 +28,8 @@ pub struct Moved {
     pub groups: Vec<Largest>,
     /// First tick with a change, as far as states were kept.
     pub first_tick: Option<u64>,
+    /// The first outputs that changed.
+    pub outputs: Option<OutputsDifference>,
     /// Ticks between states that were kept; 1 in a log that is not compacted.
     pub seen_every_ticks: u64,
     /// Last states, before and now.
@@ -68,10 +73,39 @@ pub fn bless(
     aircraft_toml: Option<&str>,
     write: bool,
 ) -> Result<Moved, ReplayError> {
+    let options = OpenOptions { across_versions: true, ..OPEN };
+    let source = Source::opened(log, options)?.judgement;
+    if !matches!(source.outcome, Outcome::NotReflown | Outcome::Diverged | Outcome::OutputsDiffer) {
+        return Err(refused(&source.words));
+    }
+    let moved = fly(log, identity.clone(), aircraft_toml, false)?;
+    if !write || moved.is_same() && moved.models.0 == moved.models.1 {
+        return Ok(moved);
+    }
+    let first = moved.first_bad_tick(&source);
+    let words = match first {
+        Some(tick) => format!("moved from {} on", at(tick)),
+        None => "moved by what it is flown with".into(),
+    };
+    let first = first.map_or("unknown".into(), |tick| tick.to_string());
+    let identity = identity.with(parent::JUDGEMENT, words).with(parent::FIRST_BAD_TICK, first);
+    fly(log, identity, aircraft_toml, true)
+}
+
+/// Flies it anew; with `write`, the new flight takes the place of the old one.
+fn fly(
+    log: &Path,
+    identity: Identity,
+    aircraft_toml: Option<&str>,
+    write: bool,
+) -> Result<Moved, ReplayError> {
     let mut reader = logs::open(log, OpenOptions { across_versions: true, ..OPEN })?;
     if !reader.intact {
         return Err(refused("its files or its first state were changed after the flight"));
     }
+    let compacted = reader.is_compacted();
+    reader.keep_outputs = !compacted;
+    let mut outputs_check = OutputsCheck::new()?;
     let mut setup = reader.setup.clone();
     if let Some(text) = aircraft_toml {
         setup.aircraft_toml = text.into();
@@ -90,18 +124,29 @@ pub fn bless(
     let before = logs::closing(log).map_or(0, |(_, digest)| digest);
     let identity = inherited(identity, &reader.identity, before);
     let temporary = beside(log, "new");
-    let new =
-        NewLog { out: &temporary, force: true, setup: &setup, identity: &identity, timing: true };
+    let new = NewLog {
+        out: &temporary,
+        force: true,
+        setup: &setup,
+        identity: &identity,
+        timing: true,
+        picture_of: None,
+    };
     let names = Names::of::<State>()?;
     let mut seen = Seen::new(&names, &reader.initial);
     seen.compare(&reader.initial, &initial)?;
-    let compacted = reader.is_compacted();
     let models = (reader.identity.get(Identity::MODEL).to_string(), engine::MODEL_VERSION);
     let mut altered = None;
     let mut failure = None;
     let mut gathered = Gathered::from(&initial);
     let rewritten = rewrite(&mut reader, &initial, &new, |tick, state, outputs, reader| {
         gathered.add(state, outputs);
+        outputs_check.computed(outputs);
+        if are_todays(reader)
+            && let Err(error) = outputs_check.recorded(&reader.outputs)
+        {
+            failure.get_or_insert(error);
+        }
         // Of a compacted log, the chain can only be formed by the model that flew it.
         if !tick.chained && !compacted {
             altered.get_or_insert(tick.record.state.tick);
@@ -131,6 +176,7 @@ pub fn bless(
     let mut moved = Moved {
         groups: seen.largest.into_iter().flatten().collect(),
         first_tick: seen.first_tick,
+        outputs: outputs_check.first.or_else(|| OutputsDifference::of_compacted(&reader)),
         seen_every_ticks: if compacted { KEYFRAME_TICKS } else { 1 },
         ends: seen.ends,
         touchdowns: (rewritten.touchdown_ticks, gathered.touchdowns),
@@ -172,8 +218,20 @@ fn refused(what: &str) -> ReplayError {
 
 /// Who flies now, with what the flight was made from and is kept for.
 fn inherited(identity: Identity, old: &Identity, before: u64) -> Identity {
-    use parent::{CHANGES, DIGEST, DIGEST_AT_START, FROM_TICK, MADE_BY, NAME, REASON};
+    use parent::{CHANGES, DIGEST, DIGEST_AT_START, FIRST_BAD_TICK, FROM_TICK, JUDGEMENT};
+    use parent::{MADE_BY, NAME, REASON};
     let kept = [MADE_BY, NAME, DIGEST, DIGEST_AT_START, FROM_TICK, CHANGES, REASON];
+    // What it came from is not clean for being blessed.
+    let identity = match (old.0.get(JUDGEMENT), identity.0.get(JUDGEMENT).cloned()) {
+        (Some(before), Some(now)) => {
+            identity.with(JUDGEMENT, format!("{now}; before that, {before}"))
+        }
+        (Some(before), None) => {
+            let tick = old.get(FIRST_BAD_TICK);
+            identity.with(JUDGEMENT, before).with(FIRST_BAD_TICK, tick)
+        }
+        (None, _) => identity,
+    };
     kept.into_iter()
         .filter_map(|key| Some((key, old.0.get(key)?)))
         .fold(identity, |identity, (key, value)| identity.with(key, value))
@@ -220,7 +278,13 @@ impl<'a> Seen<'a> {
 impl Moved {
     /// Whether every state that was kept is the same, and the digest.
     pub fn is_same(&self) -> bool {
-        self.first_tick.is_none() && self.digests.0 == self.digests.1
+        self.first_tick.is_none() && self.outputs.is_none() && self.digests.0 == self.digests.1
+    }
+
+    /// The first tick that moved, as exactly as it is known.
+    fn first_bad_tick(&self, source: &Judgement) -> Option<u64> {
+        let outputs = self.outputs.as_ref().and_then(|outputs| outputs.tick);
+        [self.first_tick, source.first_bad_tick, outputs].into_iter().flatten().min()
     }
 }
 
@@ -245,7 +309,11 @@ impl fmt::Display for Moved {
         };
         match self.first_tick {
             Some(first) => writeln!(f, "moved from {} on{every}", at(first))?,
+            None if self.digests.0 == self.digests.1 => writeln!(f, "no state moved{every}")?,
             None => writeln!(f, "no state moved{every}; what it is flown with did")?,
+        }
+        if let Some(outputs) = &self.outputs {
+            writeln!(f, "  outputs differ {outputs}")?;
         }
         if self.models.0 != self.models.1 {
             writeln!(f, "  flight model   {} -> {}", self.models.0, self.models.1)?;

@@ -15,6 +15,10 @@ pub(crate) struct Diagnosis {
     single: SingleStepper,
     /// The recorded state before the tick.
     before: State,
+    /// Only what was kept of a compacted log can be compared: its keyframes.
+    compacted: bool,
+    /// The last tick that was the recorded one.
+    last_same: u64,
     /// What was found.
     pub(crate) divergence: Option<Box<Divergence>>,
 }
@@ -25,6 +29,8 @@ impl Diagnosis {
             last_input: LastInput::new()?,
             single: SingleStepper::new()?,
             before: flight.state,
+            compacted: flight.reader.is_compacted(),
+            last_same: flight.state.tick,
             divergence: None,
         })
     }
@@ -36,6 +42,9 @@ impl Diagnosis {
         flight: &mut Reflight,
         same: Option<bool>,
     ) -> Result<(), LogError> {
+        if self.compacted {
+            return self.add_compacted(tick, flight, same);
+        }
         let recorded = &flight.reader.tick;
         let parted = Parted { tick, recorded: &recorded.state_message, reflown: flight.message() };
         match (&mut self.divergence, same) {
@@ -62,6 +71,46 @@ impl Diagnosis {
         self.blocks(&flight.reader.outputs)?;
         // What blocks gave stands some way behind the states in the file, or before them.
         flight.reader.outputs.retain(|outputs| outputs.tick > tick);
+        Ok(())
+    }
+
+    /// The same of a compacted log: what is read of it between keyframes is computed, and would be compared
+    /// with itself.
+    fn add_compacted(
+        &mut self,
+        tick: u64,
+        flight: &Reflight,
+        same: Option<bool>,
+    ) -> Result<(), LogError> {
+        let recorded = &flight.reader.tick;
+        if same.is_some() && self.divergence.is_none() {
+            self.last_input.add(&recorded.events, &recorded.inputs)?;
+        }
+        if same == Some(true) {
+            self.last_same = tick;
+        }
+        if same.is_none() || !flight.reader.is_recorded() {
+            return Ok(());
+        }
+        let parted = Parted { tick, recorded: &recorded.state_message, reflown: flight.message() };
+        match &mut self.divergence {
+            Some(divergence) => divergence.growth.add(tick, parted.recorded, parted.reflown),
+            None if same == Some(false) => {
+                let input = self.last_input.told(&flight.aircraft.cockpit);
+                let found = Divergence::new(&self.single.states, &parted, input)?;
+                self.divergence = found.map(Box::new);
+                if let Some(divergence) = &mut self.divergence {
+                    divergence.after_tick = Some(self.last_same);
+                    divergence.single.between_keyframes = true;
+                }
+            }
+            None => {}
+        }
+        // Reading began this stretch with the keyframe before.
+        if let (Some(divergence), Some((state, _))) = (&mut self.divergence, flight.reader.flown())
+        {
+            divergence.single.add_keyframe(&recorded.state_message, &cdr::encode(state)?);
+        }
         Ok(())
     }
 

@@ -13,6 +13,7 @@ use crate::compare::{Difference, Names};
 use crate::divergence::{Divergence, LastInput, Parted};
 use crate::judgement::{End, Facts, Judgement};
 use crate::refly::Window;
+use crate::ticks::Irregular;
 
 /// Two logs beside each other.
 #[derive(Debug)]
@@ -52,6 +53,12 @@ pub struct Side {
     pub end: End,
     /// What it is, as far as reading shows.
     pub judgement: Judgement,
+    /// The first ticks that are missing, or are there twice.
+    pub irregular: Option<Irregular>,
+    /// How many ticks are missing.
+    pub missing: u64,
+    /// How many ticks are there once more.
+    pub doubled: u64,
 }
 
 /// A value by name that is not the same.
@@ -128,6 +135,8 @@ impl Diff {
             && self.world.is_empty()
             && self.state.is_empty()
             && ends(&self.a) == ends(&self.b)
+            && (self.a.missing, self.a.doubled) == (self.b.missing, self.b.doubled)
+            && self.a.irregular == self.b.irregular
     }
 
     /// Whether both could be read to their end.
@@ -200,7 +209,7 @@ pub(crate) struct At {
 /// A log being read.
 pub(crate) struct Cursor {
     pub(crate) reader: FlightReader,
-    start_tick: u64,
+    pub(crate) start_tick: u64,
     last: (u64, u64),
     facts: Facts,
     disorder: Option<String>,
@@ -235,7 +244,7 @@ impl Cursor {
     }
 
     /// Reads what is left.
-    fn finish(mut self) -> Side {
+    pub(crate) fn finish(mut self) -> Side {
         while self.now.is_some() {
             self.advance();
         }
@@ -245,6 +254,9 @@ impl Cursor {
             last_tick: self.last.0,
             digest: self.last.1,
             judgement: self.facts.judge(),
+            irregular: self.facts.irregular,
+            missing: self.facts.missing,
+            doubled: self.facts.doubled,
             end: self.facts.end,
         }
     }

@@ -13,8 +13,11 @@ use crate::stage::Stage;
 /// The first difference between the recorded and the reflown flight.
 #[derive(Clone, Debug)]
 pub struct Divergence {
-    /// Tick.
+    /// Tick; of a compacted log, that of the first state that was kept and differs.
     pub tick: u64,
+    /// Of a compacted log, the last tick whose digest is the one that was kept: the first difference is
+    /// after it.
+    pub after_tick: Option<u64>,
     /// Stage of the step whose result differs first, in the order of its wiring.
     pub stage: Option<Stage>,
     /// Field of the state that differs first: the first one of that stage.
@@ -38,7 +41,8 @@ pub struct Divergence {
     pub single: SingleSteps,
 }
 
-/// Steps of one tick each, from every recorded state of the window: differences that do not add up.
+/// Steps of one tick each, from every recorded state of the window: differences that do not add up. Of a
+/// compacted log, only the states at keyframes were recorded, and each step goes from one to the next.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SingleSteps {
     /// How many were flown.
@@ -52,6 +56,8 @@ pub struct SingleSteps {
     pub block: Option<BlockDifference>,
     /// How many ticks with a recorded result of every block were compared, up to that one.
     pub outputs: u64,
+    /// Whether each goes from one keyframe of a compacted log to the next.
+    pub between_keyframes: bool,
 }
 
 /// What a block gave, recorded and computed anew from the recorded state.
@@ -210,6 +216,7 @@ impl Divergence {
         growth.add(at.tick, at.recorded, at.reflown);
         Ok(Some(Self {
             tick: at.tick,
+            after_tick: None,
             stage: *stage,
             path: first.name.path.clone(),
             unit: first.name.unit.clone(),
@@ -238,6 +245,12 @@ impl SingleSteps {
         if let Some(first) = stages.min() {
             count(&mut self.first_stages, first);
         }
+    }
+
+    /// What the flight from the keyframe before led to, beside the keyframe.
+    pub(crate) fn add_keyframe(&mut self, recorded: &[u8], flown: &[u8]) {
+        self.ticks += 1;
+        self.differing += u64::from(recorded != flown);
     }
 
     /// What every block gave in such a step, beside what was recorded of it.

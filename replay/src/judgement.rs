@@ -1,12 +1,16 @@
 //! What a log is: decided in one place, from what was found while it was read.
 
 use std::fmt;
+use std::path::Path;
 
 use engine::STEP_S;
 use logs::text::at;
 use logs::{Ending, FlightReader, Identity, LogError, Recovery, Tick};
 
-use crate::refly::{Reflight, ReplayError, Window};
+use crate::outputs::OutputsDifference;
+use crate::refly::{OPEN, Reflight, ReplayError, Window};
+use crate::rewrite::parent;
+use crate::ticks::Irregular;
 
 /// What a log is, in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +27,9 @@ pub enum Outcome {
     Altered,
     /// It does not refly to the same bits.
     Diverged,
+    /// Its states refly to the same bits, but what was shown, sent and exported of them is not what is
+    /// computed now.
+    OutputsDiffer,
     /// Flown by another version than recorded, or not comparable in every field: never exact.
     Compared,
     /// No flight log, or one that cannot be flown.
@@ -31,13 +38,14 @@ pub enum Outcome {
 
 impl Outcome {
     /// Every one.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Exact,
         Self::NotReflown,
         Self::NeverClosed,
         Self::Damaged,
         Self::Altered,
         Self::Diverged,
+        Self::OutputsDiffer,
         Self::Compared,
         Self::Unusable,
     ];
@@ -51,6 +59,7 @@ impl Outcome {
             Self::Damaged => "damaged",
             Self::Altered => "altered",
             Self::Diverged => "diverged",
+            Self::OutputsDiffer => "outputs_differ",
             Self::Compared => "compared",
             Self::Unusable => "unusable",
         }
@@ -150,14 +159,24 @@ pub struct Facts {
     /// First tick whose digest does not follow from what came before; the first of all when the files
     /// or the first state are not those that the flight was begun with.
     pub altered: Option<u64>,
+    /// The first ticks that are missing, or are there twice.
+    pub irregular: Option<Irregular>,
+    /// How many ticks are missing.
+    pub missing: u64,
+    /// How many ticks are there once more.
+    pub doubled: u64,
     /// First tick whose reflown state is not the recorded one.
     pub diverged: Option<u64>,
     /// The field of the state that shows it, where one does.
     pub diverged_field: Option<String>,
     /// Another version flew it than recorded it, so that no difference says anything of the log.
     pub comparison: bool,
+    /// The first recorded outputs that are not those computed now.
+    pub outputs: Option<OutputsDifference>,
     /// For a log that was recovered from a broken one: which, up to which tick, and why no further.
     pub recovered: Option<String>,
+    /// For a log that was made from one that was not sound: from which, and what that one was.
+    pub origin: Option<String>,
     /// How it ended.
     pub end: End,
 }
@@ -174,12 +193,35 @@ impl Facts {
             same: 0,
             digest: 0,
             altered: (!reader.intact).then_some(start_tick),
+            irregular: None,
+            missing: 0,
+            doubled: 0,
             diverged: None,
             diverged_field: None,
             comparison: false,
+            outputs: None,
             recovered: recovered(&reader.identity),
+            origin: origin(&reader.identity),
             end: End::NeverClosed,
         }
+    }
+
+    /// Of a log as it was recorded, read from where it stands to its end: nothing is reflown.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn read(reader: &mut FlightReader, window: &Window) -> Result<Self, ReplayError> {
+        let mut facts = Self::of_reading(reader);
+        let disorder = loop {
+            match reader.next_tick() {
+                Ok(Some(tick)) => facts.add(tick, None),
+                Ok(None) => break None,
+                Err(error) => break Some(disorder(error.into())?),
+            }
+            reader.forget();
+        };
+        facts.end(reader, disorder, window);
+        Ok(facts)
     }
 
     /// Of a log that is about to be reflown.
@@ -191,8 +233,15 @@ impl Facts {
 
     /// Adds a tick; `same` says whether the reflown state is the recorded one, where it was reflown.
     pub fn add(&mut self, recorded: &Tick, same: Option<bool>) {
+        let expected = self.last_tick().saturating_add(1);
+        let found = recorded.record.state.tick;
         self.ticks += 1;
         self.digest = recorded.record.digest;
+        // A state that has another tick than its inputs was changed, and no tick is missing for it.
+        let regular = found == expected || recorded.inputs.tick.saturating_add(1) != found;
+        if !regular {
+            self.irregular(expected, found);
+        }
         let tick = self.last_tick();
         if !recorded.chained {
             self.altered.get_or_insert(tick);
@@ -206,8 +255,22 @@ impl Facts {
         }
     }
 
+    /// Notes a tick that does not follow the one before.
+    fn irregular(&mut self, expected: u64, found: u64) {
+        let irregular = if found > expected {
+            self.missing = self.missing.saturating_add(found - expected);
+            Irregular::Missing { first: expected, last: found - 1 }
+        } else {
+            self.doubled += 1;
+            Irregular::Doubled { tick: found }
+        };
+        self.irregular.get_or_insert(irregular);
+        self.altered.get_or_insert(irregular.tick());
+    }
+
     /// Notes how it ended: `disorder` is what stopped the reading, if anything did.
     pub fn end(&mut self, reader: &FlightReader, disorder: Option<String>, window: &Window) {
+        self.outputs = self.outputs.take().or_else(|| OutputsDifference::of_compacted(reader));
         let windowed = window.until_tick.is_some_and(|until| self.last_tick() >= until);
         self.end = match (disorder, reader.ending(), &self.recovered) {
             (Some(disorder), ..) => End::Disorder(disorder),
@@ -219,9 +282,22 @@ impl Facts {
         };
     }
 
+    /// Notes how a reflight ended: `disorder` is what stopped it, if anything did.
+    pub fn end_of_reflight(
+        &mut self,
+        flight: &mut Reflight,
+        disorder: Option<String>,
+        window: &Window,
+    ) {
+        self.comparison = flight.versions().is_some_and(|versions| versions.comparison());
+        self.outputs = flight.outputs_difference().cloned();
+        self.end(&flight.reader, disorder, window);
+    }
+
     /// The last tick read.
     pub fn last_tick(&self) -> u64 {
-        self.start_tick.saturating_add(self.ticks)
+        let last = self.start_tick.saturating_add(self.ticks).saturating_add(self.missing);
+        last.saturating_sub(self.doubled)
     }
 
     /// The last tick whose state is the recorded one, to the bit.
@@ -231,25 +307,34 @@ impl Facts {
 
     /// The last tick that is proven: its state is the recorded one, and its digest follows.
     pub fn exact_tick(&self) -> u64 {
-        let proven = |altered: u64| altered.saturating_sub(1).max(self.start_tick);
-        self.altered.map_or(u64::MAX, proven).min(self.same_tick())
+        let proven = |bad: u64| bad.saturating_sub(1).max(self.start_tick);
+        let outputs = self.outputs.as_ref().and_then(|difference| difference.tick);
+        let bad = [self.altered, outputs].into_iter().flatten().min();
+        bad.map_or(u64::MAX, proven).min(self.same_tick())
     }
 
     /// Whether the state itself is not the one that led to the digest that was kept: of a compacted
     /// log nothing tells whether the program or the log has changed.
     pub fn differs_by_digest(&self) -> bool {
-        self.compacted && self.altered == self.diverged && self.altered > Some(self.start_tick)
+        self.compacted
+            && self.irregular.is_none()
+            && (self.altered == self.diverged || !self.reflown)
+            && self.altered > Some(self.start_tick)
     }
 
     /// What the log is. Nowhere else is it decided.
     pub fn judge(&self) -> Judgement {
         let (outcome, first_bad_tick) = match (self.altered, self.diverged) {
-            (Some(_), Some(tick)) if self.differs_by_digest() && !self.comparison => {
+            (Some(tick), _) if self.differs_by_digest() && !self.comparison => {
                 (Outcome::Diverged, Some(tick))
             }
             // Whoever changed a log may have changed it so that it diverges before.
             (Some(tick), _) => (Outcome::Altered, Some(tick)),
             (None, Some(tick)) if !self.comparison => (Outcome::Diverged, Some(tick)),
+            (None, _) if self.outputs.is_some() && !self.comparison => {
+                let tick = self.outputs.as_ref().and_then(|difference| difference.tick);
+                (Outcome::OutputsDiffer, tick)
+            }
             (None, _) if !self.end.is_readable() => {
                 (Outcome::Damaged, Some(self.last_tick().saturating_add(1)))
             }
@@ -293,6 +378,10 @@ impl Facts {
             Outcome::Damaged => format!("damaged after {}: {}", at(self.last_tick()), self.end),
             Outcome::Altered => self.altered_words(),
             Outcome::Diverged => self.diverged_words(),
+            Outcome::OutputsDiffer => {
+                let words = self.outputs.as_ref().map_or_else(String::new, ToString::to_string);
+                format!("outputs differ {words}")
+            }
             Outcome::Compared => "compared: the log is of another version".into(),
             // Not decided from facts: there are none.
             Outcome::Unusable => "unusable".into(),
@@ -301,16 +390,19 @@ impl Facts {
 
     fn altered_words(&self) -> String {
         let tick = self.altered.unwrap_or(self.start_tick);
-        let what = if tick == self.start_tick {
-            "its aircraft, cockpit map, scenario or first state is not what it was flown with"
-        } else {
-            "the digest does not follow from what was before"
+        let what = match self.irregular.filter(|irregular| irregular.tick() == tick) {
+            Some(irregular) => irregular.to_string(),
+            None if tick == self.start_tick => {
+                "its aircraft, cockpit map, scenario or first state is not what it was flown with"
+                    .into()
+            }
+            None => "the digest does not follow from what was before".into(),
         };
         format!("altered at {}: the log was changed after the flight, {what}", at(tick))
     }
 
     fn diverged_words(&self) -> String {
-        let tick = self.diverged.unwrap_or(self.start_tick);
+        let tick = self.diverged.or(self.altered).unwrap_or(self.start_tick);
         let what = match &self.diverged_field {
             _ if self.differs_by_digest() => {
                 "the reflown state has not the digest that was kept: this program flies otherwise, or \
@@ -337,6 +429,31 @@ pub fn disorder(error: ReplayError) -> Result<String, ReplayError> {
     }
 }
 
+/// What a log is as it was recorded, in the part that the window shows: nothing is reflown. Of one that
+/// is none, or of another version, that is what is said of it.
+pub fn judge(log: &Path, window: &Window) -> Judgement {
+    let facts = || -> Result<Facts, ReplayError> {
+        let mut reader = logs::open(log, OPEN)?;
+        window.apply(&mut reader)?;
+        Facts::read(&mut reader, window)
+    };
+    match facts() {
+        Ok(facts) => facts.judge(),
+        Err(error) => Judgement::unusable(format!("not judged: {error}")),
+    }
+}
+
+/// What a log that was made from one that was not sound says of it.
+fn origin(identity: &Identity) -> Option<String> {
+    let judgement = identity.0.get(parent::JUDGEMENT)?;
+    let (name, tick) = (identity.get(parent::NAME), identity.get(parent::FIRST_BAD_TICK));
+    if let Some(digest) = identity.0.get(parent::BLESSED_FROM) {
+        let words = format!("it was blessed: the flight of digest {digest} {judgement}");
+        return Some(format!("{words}; first bad tick {tick}"));
+    }
+    Some(format!("it was made from {name}, whose first bad tick is {tick}: {judgement}"))
+}
+
 fn recovered(identity: &Identity) -> Option<String> {
     let parent = identity.0.get(Recovery::PARENT)?;
     let (tick, reason) = (identity.get(Recovery::TICK), identity.get(Recovery::REASON));
@@ -357,10 +474,15 @@ mod tests {
             same: 10,
             digest: 7,
             altered: None,
+            irregular: None,
+            missing: 0,
+            doubled: 0,
             diverged: None,
             diverged_field: None,
             comparison: false,
+            outputs: None,
             recovered: None,
+            origin: None,
             end: End::Closed,
         }
     }

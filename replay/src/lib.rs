@@ -7,10 +7,13 @@ mod diff;
 mod divergence;
 pub mod growth;
 pub mod judgement;
+mod outputs;
 mod refly;
 mod rewrite;
+mod source;
 mod stage;
 mod summary;
+mod ticks;
 mod verify;
 mod versions;
 #[cfg(feature = "rerun")]
@@ -22,10 +25,13 @@ pub use diff::{
     Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
 };
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
-pub use judgement::{End, Facts, Judgement, Outcome};
+pub use judgement::{End, Facts, Judgement, Outcome, judge};
+pub use outputs::OutputsDifference;
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
 pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
+pub use source::Source;
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};
+pub use ticks::Irregular;
 pub use verify::{Options, Verdict, verify};
 pub use versions::Versions;

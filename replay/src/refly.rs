@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use crate::outputs::{OutputsCheck, OutputsDifference, are_todays};
 use crate::versions::Versions;
 use engine::start::Start;
-use engine::{Aircraft, Inputs, Outputs, State, step};
+use engine::{Aircraft, Inputs, Outputs, State, observe, step};
 use logs::compact::Flown;
 use logs::{Ending, FlightReader, LogError, OpenOptions, Setup, Tick, cdr};
 
@@ -92,6 +93,9 @@ pub struct Reflight {
     message: Vec<u8>,
     /// Every tick so far was the recorded one.
     together: bool,
+    outputs_check: OutputsCheck,
+    /// Whether the caller takes the recorded outputs out of the reader.
+    pub(crate) outputs_taken: bool,
     /// What is not as the log says.
     pub notes: Vec<String>,
 }
@@ -130,9 +134,15 @@ impl Reflight {
         // A compacted log is flown while it is read, by this version's model or not at all.
         let aircraft_of = OPEN.aircraft_of.filter(|_| !across);
         let mut reader = logs::open(path, OpenOptions { aircraft_of, across_versions: across })?;
+        // What a compacted log has of them is made again.
+        reader.keep_outputs = !across && !reader.is_compacted();
         let mut notes = Vec::new();
+        let mut world = None;
         let aircraft = match read(&reader.setup) {
-            Ok(flown) => flown.aircraft,
+            Ok(flown) => {
+                world = Some(flown.world);
+                flown.aircraft
+            }
             Err(error) if !across => return Err(error.into()),
             Err(_) => aircraft_across(&reader.setup, &mut notes)?,
         };
@@ -145,8 +155,23 @@ impl Reflight {
                 reader.initial
             }
         };
+        let mut outputs_check = OutputsCheck::new()?;
+        if let Some(world) = world.filter(|_| state.tick == 0) {
+            // What there was to be seen before the first tick.
+            outputs_check.computed(&observe(&aircraft, &state, &world));
+        }
         let (outputs, message) = (Outputs::default(), Vec::new());
-        Ok(Self { reader, aircraft, state, outputs, message, together: true, notes })
+        Ok(Self {
+            reader,
+            aircraft,
+            state,
+            outputs,
+            message,
+            together: true,
+            outputs_check,
+            outputs_taken: false,
+            notes,
+        })
     }
 
     /// Flies the next tick; `None` at the end of the log, or of the window.
@@ -157,6 +182,7 @@ impl Reflight {
     /// When the log's messages do not make a flight.
     pub fn next_tick(&mut self) -> Result<Option<Reflown<'_>>, ReplayError> {
         if self.reader.next_tick()?.is_none() {
+            self.check_outputs()?;
             return Ok(None);
         }
         // A compacted log was flown while it was read: once is enough while all is as recorded.
@@ -177,8 +203,29 @@ impl Reflight {
             exact &= self.together && (recorded.chained || self.reader.is_recorded());
         }
         self.together &= exact;
-        let Self { state, outputs, .. } = self;
+        let tick = recorded.record.state.tick;
+        if self.together {
+            self.outputs_check.computed(&self.outputs);
+        }
+        self.check_outputs()?;
+        if !self.outputs_taken {
+            self.reader.outputs.retain(|outputs| outputs.tick > tick);
+        }
+        let recorded = &self.reader.tick;
+        let Self { state, outputs, .. } = &*self;
         Ok(Some(Reflown { recorded, state, outputs, exact }))
+    }
+
+    fn check_outputs(&mut self) -> Result<(), LogError> {
+        if self.reader.outputs.is_empty() || !are_todays(&self.reader) {
+            return Ok(());
+        }
+        self.outputs_check.recorded(&self.reader.outputs)
+    }
+
+    /// The first recorded outputs that are not those computed now, of states that are the recorded ones.
+    pub fn outputs_difference(&self) -> Option<&OutputsDifference> {
+        self.outputs_check.first.as_ref()
     }
 
     /// The state after the last tick, as a message.

@@ -1,4 +1,4 @@
-//! A new log from the inputs of another one: what-if, trimming and blessing are all this.
+//! A new log from the inputs of another one: what-if, clipping and blessing are all this.
 
 use std::path::Path;
 
@@ -6,14 +6,15 @@ use engine::{Inputs, Outputs, State, observe, step};
 use logs::records::{EventRecord, Happening};
 use logs::view::Remark;
 use logs::{
-    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Narrator, Observed, Setup, Tick,
+    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Messages, Narrator, Observed,
+    Setup, Tick,
 };
 
-use crate::refly::{ReplayError, read};
+use crate::refly::{OPEN, ReplayError, read};
 
 /// Keys of a log's metadata that say what it was made from.
 pub mod parent {
-    /// What made it: `whatif`, `trim`, `bless`.
+    /// What made it: `whatif`, `clip`, `bless`.
     pub const MADE_BY: &str = "made_by";
     /// File name of the log whose inputs it has.
     pub const NAME: &str = "parent";
@@ -27,6 +28,10 @@ pub mod parent {
     pub const CHANGES: &str = "changes";
     /// What it is kept for.
     pub const REASON: &str = "reason";
+    /// What that log was, where it was not sound; or what one was that it was made from.
+    pub const JUDGEMENT: &str = "parent_judgement";
+    /// The first tick of that log that was not as it should be, or that it lacks.
+    pub const FIRST_BAD_TICK: &str = "parent_first_bad_tick";
     /// The last digest before it was blessed.
     pub const BLESSED_FROM: &str = "blessed_from_digest";
 }
@@ -43,6 +48,9 @@ pub struct NewLog<'a> {
     pub identity: &'a Identity,
     /// Whether to take over how the ticks kept time.
     pub timing: bool,
+    /// The log whose pictures of the first state are taken over, message for message, where nothing was
+    /// changed.
+    pub picture_of: Option<&'a Path>,
 }
 
 /// A log that was written.
@@ -82,12 +90,17 @@ pub fn rewrite(
 ) -> Result<Rewritten, ReplayError> {
     let flown = read(new.setup)?;
     let aircraft = &flown.aircraft;
+    let same_aircraft = new.setup.aircraft_toml == reader.setup.aircraft_toml;
+    let shape = match reader.robot_description.as_str() {
+        known if same_aircraft && !known.is_empty() => known.to_string(),
+        _ => aircraft::urdf(aircraft),
+    };
     let mut writer = FlightWriter::create(
         new.out,
         new.setup,
         new.identity,
         aircraft,
-        &aircraft::urdf(aircraft),
+        &shape,
         initial,
         new.force,
     )?;
@@ -95,7 +108,9 @@ pub fn rewrite(
     let mut written = || -> Result<(), ReplayError> {
         let mut narrator = Narrator::new(initial, &aircraft.envelope.airframe);
         let mut state = *initial;
-        if state.tick == 0 {
+        let log = new.picture_of.filter(|_| same_aircraft && reader.initial == *initial);
+        let pictured = log.map(|log| take_picture(log, state.tick, &mut writer)).transpose()?;
+        if state.tick == 0 && pictured != Some(true) {
             let seen = observe(aircraft, &state, &flown.world);
             writer.view(&seen, state.plant.attitude)?;
         }
@@ -119,6 +134,7 @@ pub fn rewrite(
             narrator.state(&mut writer, &state, &Observed::of(&outputs))?;
             writer.view(&outputs, state.plant.attitude)?;
             watch(&reader.tick, &state, &outputs, reader);
+            reader.outputs.retain(|outputs| outputs.tick > state.tick);
         }
         crew_said(reader, &mut writer, &mut touchdown_ticks)?;
         match reader.ending() {
@@ -138,6 +154,17 @@ pub fn rewrite(
         let _ = std::fs::remove_file(new.out);
     }
     Ok(Rewritten { closed: closed?, touchdown_ticks })
+}
+
+/// Takes over what viewers drew of a tick; `false` when there is nothing of it.
+fn take_picture(log: &Path, tick: u64, writer: &mut FlightWriter) -> Result<bool, LogError> {
+    let mut messages = Messages::open(log, OPEN)?;
+    messages.limit(tick, tick)?;
+    let mut any = false;
+    while let Some(message) = messages.next_message() {
+        any |= writer.picture(message)?;
+    }
+    Ok(any)
 }
 
 /// Takes over what only the crew could know; everything else is told anew from the numbers.

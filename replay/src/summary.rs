@@ -142,8 +142,7 @@ pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
             Err(error) => break Some(disorder(error)?),
         }
     };
-    facts.end(&flight.reader, disorder, window);
-    facts.comparison = flight.versions().is_some_and(|versions| versions.comparison());
+    facts.end_of_reflight(&mut flight, disorder, window);
     let remarks = std::mem::take(&mut flight.reader.remarks);
     let digest = flight.reader.digest();
     Ok(Summary {

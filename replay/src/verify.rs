@@ -53,7 +53,7 @@ pub fn verify(
 ) -> Result<Verdict, ReplayError> {
     let Options { window, across_versions, .. } = *options;
     let mut flight = Reflight::open(path, &ReflyOptions { window, across_versions })?;
-    flight.reader.keep_outputs = true;
+    flight.outputs_taken = true;
     let mut facts = Facts::of_reflight(&flight);
     let mut diagnosis = Diagnosis::of(&flight)?;
     let disorder = loop {
@@ -75,8 +75,7 @@ pub fn verify(
     diagnosis.blocks(&flight.reader.outputs)?;
     let divergence = diagnosis.divergence;
     let versions = Versions::of(&flight);
-    facts.end(&flight.reader, disorder, &options.window);
-    facts.comparison = versions.as_ref().is_some_and(Versions::comparison);
+    facts.end_of_reflight(&mut flight, disorder, &options.window);
     facts.diverged_field = divergence
         .as_ref()
         .filter(|divergence| facts.diverged == Some(divergence.tick))

@@ -47,6 +47,7 @@ use rerun::RecordingStreamError;
 use rerun::external::re_log_encoding::rrd::EncodeError;
 use rerun::sink::SinkFlushError;
 
+use crate::judgement::{Judgement, Outcome};
 pub use against::{DrawError, Drawn, Other, draw_against};
 use canvas::Canvas;
 use layout::Subject;
@@ -107,6 +108,15 @@ impl Severity {
             Self::Warning => rerun::TextLogLevel::WARN,
             Self::Error => rerun::TextLogLevel::ERROR,
         }
+    }
+}
+
+/// How much it matters what a log is.
+pub fn severity(judgement: &Judgement) -> Severity {
+    match judgement.outcome {
+        Outcome::Exact | Outcome::NotReflown => Severity::Info,
+        Outcome::NeverClosed | Outcome::Compared => Severity::Warning,
+        _ => Severity::Error,
     }
 }
 

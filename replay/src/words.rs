@@ -27,6 +27,7 @@ impl fmt::Display for Verdict {
         let (exact, last) = (facts.exact_tick(), facts.last_tick());
         let same = match judgement.outcome {
             Outcome::Compared => "the same in every field that both know",
+            Outcome::OutputsDiffer => "the outputs are those recorded, and the states exact,",
             _ => "exact",
         };
         let more = if matches!(facts.end, End::Closed | End::Window) { "" } else { " or more" };
@@ -38,6 +39,9 @@ impl fmt::Display for Verdict {
         }
         if exact < facts.same_tick() {
             write!(f, "; the states refly to the same bits up to {}", at(facts.same_tick()))?;
+        }
+        if let Some(origin) = &facts.origin {
+            write!(f, "\n{origin}")?;
         }
         if let Some(recovered) = &facts.recovered
             && !matches!(facts.end, End::Recovered(_))
@@ -66,7 +70,15 @@ fn counted(stages: &[(Stage, u64)]) -> String {
 
 impl fmt::Display for Divergence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "first difference: {}", at(self.tick))?;
+        match self.after_tick {
+            None => writeln!(f, "first difference: {}", at(self.tick))?,
+            Some(after) => writeln!(
+                f,
+                "first difference: between {} and {}, the next state that was kept",
+                at(after),
+                at(self.tick)
+            )?,
+        }
         let stage = self.stage.map_or("(not known here)", Stage::name);
         write!(f, "  stage     {stage}")?;
         match self.stage.and_then(Stage::or_before) {
@@ -114,6 +126,12 @@ impl fmt::Display for Divergence {
 
 fn write_single(f: &mut fmt::Formatter<'_>, single: &SingleSteps) -> fmt::Result {
     let SingleSteps { ticks, differing, first_stages, .. } = single;
+    if single.between_keyframes {
+        return writeln!(
+            f,
+            "  keyframes {differing} of {ticks} are not what the flight from the keyframe before leads to"
+        );
+    }
     writeln!(
         f,
         "  one step  from each recorded state: {differing} of {ticks} do not lead to the next one{}{}",

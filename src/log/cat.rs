@@ -11,7 +11,7 @@ use logs::channels::Written;
 use logs::fields::Value;
 use logs::layout::Layout;
 use logs::{Ending, Messages};
-use replay::Window;
+use replay::{Outcome, Window};
 use wildmatch::WildMatch;
 
 use crate::status::Status;
@@ -91,7 +91,7 @@ pub fn run(args: &Args) -> Result<Status> {
         return Ok(Status::Done);
     }
     if let Ending::Damaged(why) = messages.ending() {
-        complain!("tiltrotor: {name}: {why}");
+        complain!("tiltrotor: {name}: damaged: {why}");
         return Ok(Status::Unusable);
     }
     if choices.is_empty() {
@@ -101,9 +101,16 @@ pub fn run(args: &Args) -> Result<Status> {
         let there: Vec<_> = choices.keys().map(String::as_str).collect();
         bail!("{name}: no such channel or field in it; its channels are {}", there.join(", "));
     }
-    Ok(match messages.ending() {
+    let ended = match messages.ending() {
         Ending::Closed => Status::Done,
         _ => Status::NeverClosed,
+    };
+    let judgement = replay::judge(&args.log, &window);
+    complain!("tiltrotor: {name}: {judgement}");
+    // What cannot be judged can still be read.
+    Ok(match judgement.outcome {
+        Outcome::Unusable => ended,
+        _ => Status::from(&judgement),
     })
 }
 

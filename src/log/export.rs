@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Ending;
-use logs::export::{Exported, Form, export};
+use logs::export::{Exported, Form, Judged, export};
 use logs::text::size;
+use replay::{Judgement, Outcome, Window};
 
 use crate::status::Status;
 
@@ -62,7 +63,9 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> Status {
         bar.set_style(style);
     }
     let mut shown_s = 0;
-    let exported = export(log, folder, form, force, |time_ns| {
+    let judgement = replay::judge(log, &Window::default());
+    let judged = Judged { outcome: judgement.outcome.name(), words: &judgement.words };
+    let exported = export(log, folder, form, force, judged, |time_ns| {
         let now_s = time_ns / 1_000_000_000;
         if now_s != shown_s {
             shown_s = now_s;
@@ -74,7 +77,7 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> Status {
     match exported {
         Ok(Exported { flight, rows, .. }) if rows.is_empty() => {
             say!("{}: {flight} is there already; --force exports it anew", log.display());
-            Status::Done
+            status(log, &judgement, Status::Done)
         }
         Ok(Exported { flight, rows, bytes, ending }) => {
             let rows: Vec<_> = rows
@@ -83,7 +86,7 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> Status {
                 .map(|(table, rows)| format!("{table} {rows}"))
                 .collect();
             say!("{}: {flight}, {}, rows: {}", log.display(), size(bytes), rows.join(", "));
-            match ending {
+            let ended = match ending {
                 Ending::Closed => Status::Done,
                 Ending::Truncated => {
                     say!("  it ends there without having been closed");
@@ -93,11 +96,21 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> Status {
                     complain!("tiltrotor: {}: damaged after that: {why}", log.display());
                     Status::Unusable
                 }
-            }
+            };
+            status(log, &judgement, ended)
         }
         Err(error) => {
             complain!("tiltrotor: {}: {error}", log.display());
             Status::Unusable
         }
+    }
+}
+
+/// Says what the log is; what cannot be judged can still be exported.
+fn status(log: &Path, judgement: &Judgement, ended: Status) -> Status {
+    say!("{}: {judgement}", log.display());
+    match judgement.outcome {
+        Outcome::Unusable => ended,
+        _ => Status::gravest([ended, Status::from(judgement)]),
     }
 }

@@ -9,6 +9,7 @@ use engine::inputs::{DeviceEvent, EventKind, World};
 use logs::fields::{Field, fields};
 use logs::records::Happening;
 use logs::{Ending, FlightReader, LogError, OpenOptions};
+use replay::Outcome;
 
 use crate::status::Status;
 use crate::window::WindowArgs;
@@ -70,17 +71,21 @@ pub fn run(args: &Args) -> Result<Status> {
     if count == 0 {
         say!("{name}: nothing of the kind happened there");
     }
-    match (disorder, reader.ending()) {
-        (Some(error), _) => bail!("{name}: unusable from there on: {error}"),
-        (None, Some(Ending::Damaged(why))) => bail!("{name}: damaged from there on: {why}"),
-        (None, Some(Ending::Closed)) => Ok(Status::Done),
-        // The window ended before the log did.
-        (None, None) => Ok(Status::Done),
-        (None, Some(Ending::Truncated)) => {
-            complain!("tiltrotor: {name}: it was never closed");
-            Ok(Status::NeverClosed)
-        }
+    if let Some(error) = disorder {
+        bail!("{name}: unusable from there on: {error}");
     }
+    if let Some(Ending::Damaged(why)) = reader.ending() {
+        bail!("{name}: damaged from there on: {why}");
+    }
+    let never_closed = reader.ending() == Some(&Ending::Truncated);
+    let judgement = replay::judge(&args.log, &window);
+    complain!("tiltrotor: {name}: {judgement}");
+    // What cannot be judged can still be read.
+    Ok(match judgement.outcome {
+        Outcome::Unusable if never_closed => Status::NeverClosed,
+        Outcome::Unusable => Status::Done,
+        _ => Status::from(&judgement),
+    })
 }
 
 /// Reads up to a tick and finds everything; what is wrong with the order of messages, if anything.

@@ -18,7 +18,7 @@ fly() { # NAME ARGUMENTS
 golden() { # FLIGHT NAME REASON WINDOW
     flight=$1 name=$2 reason=$3
     shift 3
-    tiltrotor log trim "$work/$flight.mcap" --force --as-golden "$name" --reason "$reason" "$@"
+    tiltrotor log clip "$work/$flight.mcap" --force --as-golden "$name" --reason "$reason" "$@"
 }
 
 fly demo --pilot demo

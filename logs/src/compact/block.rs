@@ -75,6 +75,8 @@ pub struct Block {
     pub digests: Vec<u64>,
     /// Ticks of what is made again, one list for each such channel.
     pub view_ticks: Vec<Vec<u64>>,
+    /// Digests of the outputs that are made again; none in the form that did not keep them.
+    pub outputs: Option<Vec<u32>>,
 }
 
 impl Block {
@@ -86,6 +88,7 @@ impl Block {
             rows: compacted(Compacted::Rows).map(|_| Rows::default()).collect(),
             digests: Vec::new(),
             view_ticks: vec![Vec::new(); count(Compacted::Remade)],
+            outputs: Some(Vec::new()),
         }
     }
 
@@ -110,11 +113,15 @@ impl Block {
                 }
             }
         }
+        if let Some(outputs) = &self.outputs {
+            put(&mut bytes, outputs.len() as u64);
+            bytes.extend(outputs.iter().flat_map(|digest| digest.to_le_bytes()));
+        }
         bytes
     }
 
-    /// From bytes.
-    pub fn decode(bytes: &[u8]) -> Result<Self, LogError> {
+    /// From bytes; `with_outputs` says whether digests of the outputs are among them.
+    pub fn decode(bytes: &[u8], with_outputs: bool) -> Result<Self, LogError> {
         let mut from = Taker(bytes);
         let first_tick = from.number()?;
         let ops = from
@@ -122,10 +129,11 @@ impl Block {
             .iter()
             .map(|&byte| Op::of(byte).ok_or_else(|| unknown(byte)))
             .collect::<Result<_, _>>()?;
-        let mut block = Self { ops, ..Self::after(first_tick) };
+        let mut block = Self { ops, outputs: None, ..Self::after(first_tick) };
         for (rows, views) in parts() {
             let first = rows.start == 0;
-            if !first && from.0.is_empty() {
+            // What was added to the table of channels since the first form.
+            if !first && !with_outputs && from.0.is_empty() {
                 break;
             }
             for rows in &mut block.rows[rows] {
@@ -143,6 +151,12 @@ impl Block {
                     ticks.push(last);
                 }
             }
+        }
+        if with_outputs {
+            let digests = from.count(4)?;
+            let (digests, _) = from.bytes(4 * digests)?.as_chunks::<4>();
+            let digests = digests.iter().map(|digest| u32::from_le_bytes(*digest));
+            block.outputs = Some(digests.collect());
         }
         if from.0.is_empty() { Ok(block) } else { Err(LogError::Decode("a block too long".into())) }
     }
@@ -164,13 +178,17 @@ mod tests {
         assert!(block.rows[0].push(&[7; 48]) && block.rows[1].push(&[1; 16]));
         block.digests = vec![u64::MAX, 3];
         block.view_ticks[4] = vec![995, 1005, 1000];
-        let bytes = block.encode();
-        assert_eq!(Block::decode(&bytes).unwrap(), block);
-        for cut in 0..bytes.len() {
-            assert!(Block::decode(&bytes[..cut]).is_err(), "cut at {cut}");
+        for outputs in [Some(vec![7, u32::MAX]), None] {
+            block.outputs = outputs;
+            let with_outputs = block.outputs.is_some();
+            let bytes = block.encode();
+            assert_eq!(Block::decode(&bytes, with_outputs).unwrap(), block);
+            for cut in 0..bytes.len() {
+                assert!(Block::decode(&bytes[..cut], with_outputs).is_err(), "cut at {cut}");
+            }
+            let mut longer = bytes.clone();
+            longer.push(0);
+            assert!(Block::decode(&longer, with_outputs).is_err());
         }
-        let mut longer = bytes.clone();
-        longer.push(0);
-        assert!(Block::decode(&longer).is_err());
     }
 }

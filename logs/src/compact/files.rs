@@ -7,8 +7,8 @@ use std::io::BufWriter;
 use mcap::records::{AttachmentHeader, Channel, Metadata};
 use mcap::{Attachment, Writer};
 
-use super::VERSION;
 use super::columns::{Taker, put};
+use super::{VERSION, VERSIONS_READ};
 use crate::LogError;
 use crate::container::{Record, Schema};
 use crate::setup::Setup;
@@ -151,10 +151,15 @@ pub fn facts<const N: usize>(name: &str, facts: [(&str, String); N]) -> Metadata
     Metadata { name: name.into(), metadata }
 }
 
+/// The form of a compacted log.
+pub fn form_of(head: &Metadata) -> &str {
+    head.metadata.get("version").map_or("unknown", String::as_str)
+}
+
 /// Refuses a compacted log of another form.
 pub fn refuse_other_form(head: &Metadata) -> Result<(), LogError> {
-    let theirs = head.metadata.get("version").map_or("unknown", String::as_str);
-    if theirs == VERSION {
+    let theirs = form_of(head);
+    if VERSIONS_READ.contains(&theirs) {
         return Ok(());
     }
     let (what, theirs) = ("compacted form", theirs.to_string());

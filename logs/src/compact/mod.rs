@@ -16,6 +16,7 @@ mod expand;
 mod files;
 mod flier;
 mod pack;
+mod proof;
 mod source;
 
 pub use expand::expand;
@@ -28,7 +29,9 @@ use crate::setup::COMPACT_HEAD as HEAD;
 /// Name of the metadata record that ends it.
 const TAIL: &str = "tiltrotor_compacted";
 /// Version of the form.
-const VERSION: &str = "1";
+const VERSION: &str = "2";
+/// The forms that are read. 1 kept no digests of the outputs.
+const VERSIONS_READ: [&str; 2] = ["1", VERSION];
 /// The channel of the blocks.
 const TOPIC: &str = "/compact";
 /// Its number, and that of its message type: writers count from 1.

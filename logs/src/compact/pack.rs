@@ -11,16 +11,18 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
 use super::files::{attach, define, encode, facts, setup_of};
-use super::flier::{AircraftOf, Flier};
+use super::flier::{AircraftOf, Flier, short_digest};
+use super::proof::prove;
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
-use crate::channels::{Channel, Compacted};
+use crate::channels::{Channel, ChannelId, Compacted};
 use crate::container::checksums::add_message;
 use crate::container::{Index, LogFile, Record, RecordSource, create, stamped};
 use crate::records::{StateRecord, time_ns};
 use crate::setup::{CLOSING, Identity, METADATA};
 use crate::{LogError, cdr};
 
-/// Compacts a log.
+/// Compacts a log, and expands it again in memory: the same messages, files and facts come back, or there
+/// is no compacted log.
 ///
 /// # Errors
 /// When `log` is not a whole flight log of this version, does not refly to the same bits, or `out`
@@ -78,6 +80,7 @@ pub fn compact(
     pack.to.finish()?;
     let file = pack.to.into_inner().into_inner().map_err(std::io::IntoInnerError::into_error)?;
     let bytes = file.metadata()?.len();
+    prove(log, out, aircraft_of)?;
     Ok(Copied { bytes_before: original.bytes, bytes, states: pack.states, same_file: None })
 }
 
@@ -189,6 +192,11 @@ impl Pack {
                 let same = is_stamped(&header, tick) && made && self.again == data;
                 if same {
                     self.block.view_ticks[channel.number()].push(tick);
+                }
+                if let (true, ChannelId::Outputs, Some(digests)) =
+                    (same, channel.id, &mut self.block.outputs)
+                {
+                    digests.push(short_digest(data));
                 }
                 same.then_some(Op::View(channel.number() as u8))
             }

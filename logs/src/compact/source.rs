@@ -1,16 +1,16 @@
 //! Reading a compacted log as the log it was.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
-use mcap::records::{MessageHeader, Metadata};
+use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
-use super::files::{broken, decode, refuse_other_form, setup_of};
-use super::flier::{AircraftOf, Flier};
-use super::{HEAD, ID, TAIL, TOPIC};
-use crate::channels::{Channel, Compacted as How, compacted};
+use super::files::{broken, decode, form_of, refuse_other_form, setup_of};
+use super::flier::{AircraftOf, Flier, short_digest};
+use super::{HEAD, ID, TAIL, TOPIC, VERSION};
+use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
 use crate::container::checksums::add_message;
 use crate::container::{Compacted, LogFile, Record, RecordSource, Schema, stamped};
 use crate::records::{STATE, StateRecord};
@@ -38,8 +38,9 @@ pub(crate) struct Expander {
     /// Channels of the log that was compacted, and of this file.
     ids: BTreeMap<String, u16>,
     topics: BTreeMap<u16, String>,
-    /// Message types of the log.
-    schemas: BTreeSet<String>,
+    /// Message types of the log, and their numbers there by those in this file.
+    schemas: Vec<Schema>,
+    schema_ids: BTreeMap<u16, u16>,
     /// Messages of the chunk so far that stand as they were.
     plain: VecDeque<Message>,
     block: Option<Unpacked>,
@@ -53,6 +54,10 @@ pub(crate) struct Expander {
     states: u64,
     /// Whether the last state was flown again: it is not as it was recorded.
     reflown: bool,
+    /// Whether blocks hold digests of the outputs.
+    with_outputs: bool,
+    /// The first tick whose outputs have not the digest that was kept.
+    outputs_differ: Option<u64>,
 }
 
 type Message = (MessageHeader, Vec<u8>);
@@ -120,14 +125,16 @@ impl Expander {
         match record {
             Record::ChunkEnd => {}
             Record::Schema(Schema { id: ID, .. }) => {}
-            // The log's own definitions come with its files.
-            Record::Schema(_) => return Ok(self.begun && self.is_new(record)),
+            // The log's own definitions come with its files; some of other programs' later.
+            Record::Schema(schema) => return Ok(self.begun && self.is_new_type(schema)),
             Record::Channel(channel) => {
                 self.topics.insert(channel.id, channel.topic.clone());
                 let own = channel.topic != TOPIC;
-                return Ok(self.begun && own && self.is_new(record));
+                return Ok(self.begun && own && self.is_new(channel));
             }
-            Record::Metadata(head) if head.name == HEAD => {}
+            Record::Metadata(head) if head.name == HEAD => {
+                self.with_outputs = form_of(head) == VERSION;
+            }
             Record::Metadata(tail) if tail.name == TAIL => self.tail = Some(Tail::of(tail)),
             Record::Metadata(facts) if facts.name == METADATA && !self.begun => {
                 let identity = Identity(facts.metadata.clone());
@@ -154,17 +161,39 @@ impl Expander {
         Ok(false)
     }
 
-    /// Whether a definition is not known yet; from now on it is.
-    fn is_new(&mut self, record: &Record) -> bool {
-        match record {
-            Record::Schema(schema) => self.schemas.insert(schema.name.clone()),
-            Record::Channel(channel) => {
-                let new = !self.ids.contains_key(&channel.topic);
-                self.ids.entry(channel.topic.clone()).or_insert(channel.id);
-                new
-            }
-            _ => true,
+    /// Whether a message type is not one of the log's yet; from now on it is. A tool that copied this
+    /// file may have given the log's types other numbers.
+    fn is_new_type(&mut self, schema: &mut Schema) -> bool {
+        let in_file = schema.id;
+        let same = |known: &&Schema| {
+            (&known.name, &known.encoding, &known.text)
+                == (&schema.name, &schema.encoding, &schema.text)
+        };
+        // Of two alike, the one with this number.
+        let known = self.schemas.iter().filter(same);
+        let known = known.max_by_key(|known| known.id == in_file).map(|known| known.id);
+        if let Some(known) = known {
+            self.schema_ids.insert(in_file, known);
+            return false;
         }
+        let taken = |id: &u16| self.schemas.iter().any(|known| known.id == *id);
+        schema.id = (in_file..ID).chain(1..in_file).find(|id| !taken(id)).unwrap_or(in_file);
+        self.schema_ids.insert(in_file, schema.id);
+        self.schemas.push(schema.clone());
+        true
+    }
+
+    /// The same of a channel.
+    fn is_new(&mut self, channel: &mut Definition) -> bool {
+        if self.ids.contains_key(&channel.topic) {
+            return false;
+        }
+        let taken = |id: &u16| self.ids.values().any(|known| known == id);
+        let in_file = channel.id;
+        channel.id = (in_file..ID).chain(1..in_file).find(|id| !taken(id)).unwrap_or(in_file);
+        channel.schema_id = *self.schema_ids.get(&channel.schema_id).unwrap_or(&channel.schema_id);
+        self.ids.insert(channel.topic.clone(), channel.id);
+        true
     }
 
     /// Files, or a block.
@@ -173,7 +202,7 @@ impl Expander {
         if !std::mem::replace(&mut self.begun, true) {
             return self.unpack_files(bytes);
         }
-        let block = Block::decode(bytes)?;
+        let block = Block::decode(bytes, self.with_outputs)?;
         let keyframe = if block.ops.contains(&Op::Keyframe) { self.plain.pop_back() } else { None };
         if std::mem::take(&mut self.skip_block) {
             self.plain.clear();
@@ -197,9 +226,17 @@ impl Expander {
             }
         }
         for record in head {
-            if self.is_new(&record) {
-                self.ready.push_back(record);
+            match &record {
+                Record::Schema(schema) => {
+                    self.schema_ids.insert(schema.id, schema.id);
+                    self.schemas.push(schema.clone());
+                }
+                Record::Channel(channel) => {
+                    self.ids.insert(channel.topic.clone(), channel.id);
+                }
+                _ => {}
             }
+            self.ready.push_back(record);
         }
         Ok(())
     }
@@ -310,9 +347,20 @@ impl Expander {
         let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
         let tick = at.block.view_ticks[number].get(at.view[number]).copied();
         let tick = tick.ok_or_else(|| broken("a tick less"))?;
+        let kept = at.block.outputs.as_ref().filter(|_| channel.id == ChannelId::Outputs);
+        let digest = match kept {
+            Some(digests) => {
+                Some(*digests.get(at.view[number]).ok_or_else(|| broken("a digest less"))?)
+            }
+            None => None,
+        };
         at.view[number] += 1;
         let Some(flier) = &self.flier else { return Ok(false) };
-        if flier.view(record.message(stamped(id, tick)), channel, tick)? {
+        let message = record.message(stamped(id, tick));
+        if flier.view(message, channel, tick)? {
+            if digest.is_some_and(|digest| digest != short_digest(message)) {
+                self.outputs_differ.get_or_insert(tick);
+            }
             return Ok(true);
         }
         if self.sought && tick <= flier.begun_tick {
@@ -374,7 +422,8 @@ impl RecordSource for Expander {
     fn compacted(&self) -> Option<Compacted<'_>> {
         let flown = self.flier.as_ref().and_then(|flier| flier.flown.as_ref());
         let flown = flown.map(|(state, outputs)| (state, outputs));
-        Some(Compacted { recorded: !self.reflown, flown })
+        let outputs_differ = self.outputs_differ;
+        Some(Compacted { recorded: !self.reflown, flown, outputs_differ })
     }
 }
 

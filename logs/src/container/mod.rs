@@ -61,4 +61,6 @@ pub(crate) struct Compacted<'a> {
     pub recorded: bool,
     /// The last tick as it was flown again.
     pub flown: Option<(&'a State, &'a Outputs)>,
+    /// The first tick whose outputs, computed again, have not the digest that was kept.
+    pub outputs_differ: Option<u64>,
 }

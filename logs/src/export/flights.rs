@@ -6,7 +6,7 @@ use std::path::Path;
 use engine::{STEP_NS, STEP_S};
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-use super::{Cell, Column};
+use super::{Cell, Column, Judged};
 use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::Kind;
@@ -17,8 +17,10 @@ use crate::{Ending, LogError, Message, Messages};
 pub(super) struct Flight {
     file: String,
     stem: String,
-    ticks: u64,
-    first_tick: Option<u64>,
+    states: u64,
+    last_tick: Option<u64>,
+    missing: u64,
+    doubled: u64,
     device_events: u64,
     digest: u64,
 }
@@ -33,8 +35,10 @@ impl Flight {
         Self {
             file: name(log.file_name()),
             stem: name(log.file_stem()).chars().map(plain).take(100).collect(),
-            ticks: 0,
-            first_tick: None,
+            states: 0,
+            last_tick: None,
+            missing: 0,
+            doubled: 0,
             device_events: 0,
             digest: 0,
         }
@@ -76,8 +80,14 @@ impl Flight {
                 if let Some(place) = number("digest") {
                     self.digest = layout.bits(&message.data)?.nth(place).unwrap_or_default();
                 }
-                self.ticks = message.time_ns / STEP_NS;
-                self.first_tick.get_or_insert(self.ticks);
+                self.states += 1;
+                let tick = message.time_ns / STEP_NS;
+                match self.last_tick.map(|last| tick.checked_sub(last)) {
+                    Some(None | Some(0)) => self.doubled += 1,
+                    Some(Some(step)) => self.missing = self.missing.saturating_add(step - 1),
+                    None => {}
+                }
+                self.last_tick = self.last_tick.max(Some(tick));
             }
             _ => {}
         }
@@ -85,10 +95,15 @@ impl Flight {
     }
 
     /// Column and fact, in order.
-    pub fn row(&self, messages: &Messages, ending: &Ending) -> Vec<(Column, Cell<'static>)> {
+    pub fn row(
+        &self,
+        messages: &Messages,
+        ending: &Ending,
+        judged: Judged,
+    ) -> Vec<(Column, Cell<'static>)> {
         let whole = |number| Cell::Number(Value::U64(number));
         let text = |name: &str, text: String| (Column::text(name), Cell::Text(text.into()));
-        let flown = self.ticks - self.first_tick.unwrap_or(self.ticks).min(self.ticks);
+        let flown = self.states.saturating_sub(1);
         let flown_s = flown as f64 * STEP_S;
         let ending = match ending {
             Ending::Closed => "closed".into(),
@@ -101,7 +116,11 @@ impl Flight {
             (Column::number("duration_s", Kind::F64), Cell::Number(Value::F64(flown_s))),
             (Column::number("device_events", Kind::U64), whole(self.device_events)),
             text("digest", format!("{:016x}", self.digest)),
+            (Column::number("ticks_missing", Kind::U64), whole(self.missing)),
+            (Column::number("ticks_doubled", Kind::U64), whole(self.doubled)),
             text("ending", ending),
+            text("judgement", judged.outcome.into()),
+            text("judgement_words", judged.words.into()),
         ];
         for (file, data) in messages.files() {
             let name = file.strip_suffix(".toml").unwrap_or(file);

@@ -68,6 +68,15 @@ pub struct Exported {
     pub ending: Ending,
 }
 
+/// What a log is, as whoever exports it has found.
+#[derive(Clone, Copy, Debug)]
+pub struct Judged<'a> {
+    /// In one word.
+    pub outcome: &'a str,
+    /// In a sentence.
+    pub words: &'a str,
+}
+
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ColumnKind {
@@ -119,6 +128,7 @@ pub fn export(
     folder: &Path,
     form: Form,
     force: bool,
+    judged: Judged,
     mut progress: impl FnMut(u64),
 ) -> Result<Exported, LogError> {
     let mut messages = Messages::open(log, OpenOptions::default())?;
@@ -146,7 +156,7 @@ pub fn export(
             _ => LogError::NotAFlight("it has no /state".into()),
         });
     };
-    tables.add_flight(flight.row(&messages, &ending))?;
+    tables.add_flight(flight.row(&messages, &ending, judged))?;
     let (rows, bytes) = tables.finish(&name)?;
     Ok(Exported { flight: name, rows, bytes, ending })
 }

@@ -17,6 +17,21 @@ pub enum Ending {
     Damaged(String),
 }
 
+/// What a compacted log does not hold and what is made again while it is read, beside what was recorded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Remade {
+    /// The same, as far as can be told.
+    #[default]
+    AsRecorded,
+    /// Other outputs.
+    OutputsDiffer {
+        /// The first such tick.
+        tick: u64,
+    },
+    /// Something that is shown, sent or exported is not the same.
+    Differs,
+}
+
 /// With what the writer closed the log.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LastWord {

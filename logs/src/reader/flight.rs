@@ -7,7 +7,7 @@ use std::path::Path;
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
 
-use super::ending::{Ending, LastWord, UNSEALED, last_word};
+use super::ending::{Ending, LastWord, Remade, UNSEALED, last_word};
 use super::stream::Stream;
 use crate::channels::{Chain as InChain, Channel, ChannelId};
 use crate::container::checksums::is_whole;
@@ -86,6 +86,7 @@ pub struct FlightReader {
     /// Whether `outputs` is to be kept: no flight depends on it.
     pub keep_outputs: bool,
     ending: Option<Ending>,
+    remade: Remade,
 }
 
 /// Opens a log and reads up to the state at the start.
@@ -211,6 +212,7 @@ impl FlightReader {
             }
         }
         self.ending = Some(self.end()?);
+        self.remade = self.judge_remade();
         Ok(None)
     }
 
@@ -286,6 +288,23 @@ impl FlightReader {
         }
         // A recovered log is a proper file, and still not the whole flight.
         Ok(if self.recovered_from().is_some() { Ending::Truncated } else { Ending::Closed })
+    }
+
+    /// Whether what was made again is what the writer of the log had counted. It says nothing where the
+    /// states are others, too.
+    fn judge_remade(&self) -> Remade {
+        let Some(compacted) = self.stream.source.compacted() else { return Remade::AsRecorded };
+        if let Some(tick) = compacted.outputs_differ {
+            return Remade::OutputsDiffer { tick };
+        }
+        let made = self.same_model && compacted.flown.is_some();
+        let all_read = self.unbroken && !self.stream.sought;
+        let ended = self.stream.ending == Ending::Closed && self.stream.oddity.is_none();
+        let counted = self.closing.and_then(|closing| closing.messages);
+        if made && all_read && ended && counted.is_some() && !self.stream.roll_calls.are(counted) {
+            return Remade::Differs;
+        }
+        Remade::AsRecorded
     }
 
     fn close_tick(&mut self) -> Result<(), LogError> {
@@ -405,6 +424,11 @@ impl FlightReader {
     /// In a compacted log, the last tick as it was flown again while reading.
     pub fn flown(&self) -> Option<(&State, &Outputs)> {
         self.stream.source.compacted()?.flown
+    }
+
+    /// What is made again of a compacted log beside what was recorded, once the last tick has been read.
+    pub fn remade(&self) -> Remade {
+        self.remade
     }
 
     /// Whether the log is compacted.

@@ -134,6 +134,11 @@ impl Message {
         self.channel.id.map(Into::into)
     }
 
+    /// Whether its fields are those of today.
+    pub(crate) fn is_todays(&self) -> bool {
+        self.channel.foreign_layout().is_none()
+    }
+
     /// What its numbers are called, by the log's own schema; `None` on channels for viewers.
     pub fn layout(&self) -> Option<&Layout> {
         self.channel.layout.as_deref()

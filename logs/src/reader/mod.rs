@@ -6,7 +6,7 @@ mod lookup;
 mod messages;
 mod stream;
 
-pub use ending::Ending;
+pub use ending::{Ending, Remade};
 pub use flight::{FlightReader, Tick, open};
 pub use lookup::{closing, marker};
 pub use messages::{Message, Messages};

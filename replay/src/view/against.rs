@@ -13,9 +13,10 @@ use super::layout::Subject;
 use super::plots::PLOTS;
 use super::scene::point;
 use super::track::{RECORDED, REFLOWN, Track};
-use super::{Severity, TICKS_PER_ROW, ViewError};
+use super::{Severity, TICKS_PER_ROW, ViewError, severity};
 use crate::compare::Names;
 use crate::diff::{At, Cursor};
+use crate::judgement::Judgement;
 use crate::refly::{ReplayError, read};
 use crate::stage::Stage;
 
@@ -29,12 +30,14 @@ pub enum Other<'a> {
 }
 
 /// What was drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawn {
     /// Size of the file.
     pub bytes: u64,
     /// First tick where the states are not the same.
     pub first_difference: Option<u64>,
+    /// What the logs are, as far as reading shows.
+    pub judgements: Vec<Judgement>,
 }
 
 /// Rows of differences gathered before they are written.
@@ -87,7 +90,16 @@ pub fn draw_against(log: &Path, other: Other, saved: &Path) -> Result<Drawn, Dra
         )?;
         recorded.cursor.advance();
     }
-    for remark in &recorded.cursor.reader.remarks {
+    let remarks = std::mem::take(&mut recorded.cursor.reader.remarks);
+    let start_tick = recorded.cursor.start_tick;
+    let mut judgements = vec![recorded.cursor.finish().judgement];
+    if let Beside::Log(flight) = other {
+        judgements.push(flight.cursor.finish().judgement);
+    }
+    for judgement in &judgements {
+        page.canvas.event(start_tick, severity(judgement), &judgement.words);
+    }
+    for remark in &remarks {
         let level = match remark.level {
             logs::view::Level::Info => Severity::Info,
             logs::view::Level::Warn => Severity::Warning,
@@ -95,7 +107,7 @@ pub fn draw_against(log: &Path, other: Other, saved: &Path) -> Result<Drawn, Dra
         };
         page.canvas.event(remark.time_ns / engine::STEP_NS, level, &remark.words);
     }
-    page.finish()
+    page.finish(judgements)
 }
 
 /// Why two flights could not be drawn.
@@ -308,7 +320,7 @@ impl Page {
         self.canvas.send("delta/apart", &times, columns);
     }
 
-    fn finish(mut self) -> Result<Drawn, DrawError> {
+    fn finish(mut self, judgements: Vec<Judgement>) -> Result<Drawn, DrawError> {
         self.flush();
         self.recorded.finish(&mut self.canvas);
         self.reflown.finish(&mut self.canvas);
@@ -316,7 +328,7 @@ impl Page {
             self.canvas.event(0, Severity::Info, "no difference: the same states to the bit");
         }
         let bytes = self.canvas.finish()?;
-        Ok(Drawn { bytes, first_difference: self.first_difference })
+        Ok(Drawn { bytes, first_difference: self.first_difference, judgements })
     }
 }
 

@@ -1,4 +1,4 @@
-//! `tiltrotor log trim`.
+//! `tiltrotor log clip`.
 
 use std::fs;
 use std::io::Write;
@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use logs::text::{at, size};
-use replay::{KEYFRAME_TICKS, NewLog, Window, beside, names_parent, parent, rewrite};
+use replay::{KEYFRAME_TICKS, NewLog, Source, Window, beside, names_parent, parent, rewrite};
 
 use crate::identity;
+use crate::made::Made;
 use crate::status::Status;
 use crate::whatif::refuse_itself;
 use crate::window::WindowArgs;
@@ -26,7 +27,7 @@ pub struct Args {
     log: PathBuf,
     #[command(flatten)]
     window: WindowArgs,
-    /// The new log [default: LOG with -trim]
+    /// The new log [default: LOG with -clip]
     #[arg(long, value_name = "FILE", conflicts_with = "as_golden")]
     out: Option<PathBuf>,
     /// Make a golden flight of it: tests/golden/NAME.mcap, compacted, in its README, verified by the
@@ -46,11 +47,13 @@ pub fn run(args: &Args) -> Result<Status> {
     let window = args.window.of(&args.log)?;
     let Some(name) = &args.as_golden else {
         let stem = args.log.file_stem().unwrap_or_default().display().to_string();
-        let name = format!("{stem}-trim.mcap");
+        let name = format!("{stem}-clip.mcap");
         let out = args.out.clone().unwrap_or_else(|| args.log.with_file_name(name));
-        let (ticks, bytes) = cut(args, &window, &out, args.force, true)?;
+        let source = source(args)?;
+        let (ticks, bytes) = cut(args, &source, &window, &out, args.force, true)?;
+        let made = Made::of(&source, &out)?;
         told(&out, ticks, bytes);
-        return Ok(Status::Done);
+        return Ok(made.say(&args.log));
     };
     let letters = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || !name.chars().all(letters) {
@@ -66,9 +69,10 @@ pub fn run(args: &Args) -> Result<Status> {
     if out.exists() && !args.force {
         bail!("{} exists; name another, or overwrite it with --force", out.display());
     }
+    let source = source(args)?;
     let whole = beside(&out, "whole");
     let golden = || -> Result<(u64, u64)> {
-        let (ticks, _) = cut(args, &window, &whole, true, false)?;
+        let (ticks, _) = cut(args, &source, &window, &whole, true, false)?;
         let made =
             logs::compact::compact(&whole, &out, args.force, KEYFRAME_TICKS, replay::flown, |_| ())
                 .with_context(|| out.display().to_string())?;
@@ -77,6 +81,7 @@ pub fn run(args: &Args) -> Result<Status> {
     let made = golden();
     let _ = fs::remove_file(&whole);
     let (ticks, bytes) = made?;
+    let made = Made::of(&source, &out)?;
     told(&out, ticks, bytes);
     if bytes > GOLDEN_BYTES_MAX {
         let most = size(GOLDEN_BYTES_MAX);
@@ -84,7 +89,12 @@ pub fn run(args: &Args) -> Result<Status> {
     }
     enter(&folder.join("README.md"), name, reason)?;
     say!("`cargo test --no-default-features --test golden` verifies it");
-    Ok(Status::Done)
+    Ok(made.say(&args.log))
+}
+
+/// The log to be cut, proven from its beginning to its end.
+fn source(args: &Args) -> Result<Source> {
+    Source::proven(&args.log, "not cut").with_context(|| args.log.display().to_string())
 }
 
 fn told(out: &Path, ticks: u64, bytes: u64) {
@@ -97,21 +107,26 @@ fn told(out: &Path, ticks: u64, bytes: u64) {
 }
 
 /// Writes the part as a log of its own; returns its ticks and its size.
-fn cut(args: &Args, window: &Window, out: &Path, force: bool, timing: bool) -> Result<(u64, u64)> {
+fn cut(
+    args: &Args,
+    source: &Source,
+    window: &Window,
+    out: &Path,
+    force: bool,
+    timing: bool,
+) -> Result<(u64, u64)> {
     let log = &args.log;
     refuse_itself(log, out)?;
     let name = || log.display().to_string();
     let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
-    if !reader.intact {
-        bail!("{}: not cut: its files or its first state were changed after the flight", name());
-    }
     window.apply(&mut reader).with_context(name)?;
-    let mut identity = names_parent(identity::identity(), log, &reader, "trim");
+    let mut identity = source.marks(names_parent(identity::identity(), log, &reader, "clip"));
     if let Some(reason) = &args.reason {
         identity = identity.with(parent::REASON, reason.trim());
     }
     let (setup, initial) = (reader.setup.clone(), reader.initial);
-    let new = NewLog { out, force, setup: &setup, identity: &identity, timing };
+    let picture_of = Some(log.as_path());
+    let new = NewLog { out, force, setup: &setup, identity: &identity, timing, picture_of };
     let (mut ticks, mut wrong) = (0, None);
     let written = rewrite(&mut reader, &initial, &new, |tick, state, _, _| {
         ticks += 1;
