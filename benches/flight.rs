@@ -15,7 +15,7 @@ use engine::start::Start;
 use engine::{Aircraft, Inputs, State, step};
 use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
-use logs::{FlightWriter, Identity, Setup};
+use logs::{FlightWriter, Identity, Observed, Setup};
 use recorder::pilots::Pilot;
 use recorder::writer::{Recording, ToRecord};
 use recorder::{Flight, Progress, fly};
@@ -101,12 +101,12 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let file = fs::File::create(&out).expect("a file");
     let writer =
         FlightWriter::create(file, &setup(), &identity, &aircraft, "", &state).expect("a log");
-    let mut recording = Recording::start(writer, &state, std::sync::mpsc::channel().1);
+    let mut recording = Recording::start(writer, &aircraft, &state, std::sync::mpsc::channel().1);
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);
         recording.put(ToRecord::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
-        recording.put(ToRecord::State(State { tick: tick + 1, ..state }));
+        recording.put(ToRecord::State(State { tick: tick + 1, ..state }, Observed::default()));
         recording.put(ToRecord::Timing(TimingRecord { tick, ..TimingRecord::default() }));
     });
     recording.finish().0.expect("a whole log");

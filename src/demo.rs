@@ -6,7 +6,7 @@ use logs::output;
 
 use crate::fly::{Common, Plan};
 use crate::status::Status;
-use crate::{report, verify};
+use crate::{fly, report, verify};
 
 /// The demonstration flight.
 #[derive(clap::Args)]
@@ -45,7 +45,10 @@ pub fn run(args: &Args) -> Result<Status> {
     if landing.log.is_err() {
         return Ok(Status::CutShort);
     }
-    let status = verify::verify_one(out);
+    let status = match verify::verify_one(out) {
+        Status::Done if !fly::is_whole(&landing) => Status::CutShort,
+        status => status,
+    };
     #[cfg(feature = "rerun")]
     {
         let output = output::Output::beside(&saved, args.common.force, &[out])?;

@@ -14,7 +14,7 @@ use logs::Setup;
 use logs::output;
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
-use recorder::{Flight, Landing, Progress, fly};
+use recorder::{End, Flight, Landing, Progress, Snapshot, fly};
 
 use crate::status::Status;
 use crate::{condition, identity, report};
@@ -144,13 +144,20 @@ pub fn run(args: &Args) -> Result<Status> {
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
-    Ok(if landing.log.is_ok() { Status::Done } else { Status::CutShort })
+    Ok(if is_whole(&landing) { Status::Done } else { Status::CutShort })
+}
+
+/// Whether the flight was flown and recorded as it was to be; who ends it may do so.
+pub fn is_whole(landing: &Landing) -> bool {
+    landing.log.is_ok() && !matches!(landing.end, End::GaveUp(_))
 }
 
 /// A flight being prepared.
 pub struct Plan {
     /// What will be flown.
     pub flight: Flight,
+    /// The pipe that the log goes into, if it does, kept open.
+    pipe: Option<fs::File>,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
 }
@@ -177,7 +184,10 @@ impl Plan {
         let inputs: Vec<&Path> =
             [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
         output::refuse(&common.out, common.force, &inputs)?;
+        let pipe = recorder::pipe::take(&common.out)
+            .with_context(|| format!("cannot write {}", common.out.display()))?;
         Ok(Self {
+            pipe,
             phases: Vec::new(),
             flight: Flight {
                 aircraft,
@@ -261,43 +271,19 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
+        let Self { flight, pipe: _pipe, phases } = self;
         let landing = thread::scope(|scope| {
-            let flight = self.flight;
             let flying = scope.spawn(|| fly(flight, &progress));
-            let mut told_of_log = false;
-            let mut told_of_mismatch = false;
+            let mut told = Snapshot::default();
             while !flying.is_finished() {
                 thread::sleep(Duration::from_millis(100));
                 let now = progress.now();
-                // Phases count from 1; 0 is before the first.
-                let phase = usize::try_from(now.phase)
-                    .ok()
-                    .and_then(|number| self.phases.get(number.checked_sub(1)?));
-                bar.set_message(format!(
-                    "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  {} late  {}",
-                    now.tick as f64 * STEP_S,
-                    now.height_m,
-                    engine::units::knots(now.airspeed_mps),
-                    report::compass_deg(now.heading_rad),
-                    now.overruns,
-                    phase.unwrap_or(&"")
-                ));
+                bar.set_message(line(&now, &phases));
                 bar.tick();
-                if now.mismatches > 0 && !told_of_mismatch {
-                    told_of_mismatch = true;
-                    bar.suspend(|| {
-                        complain!(
-                            "WARNING: the flight is not the same when reflown: do not trust this \
-                             machine, or report this; the log says where"
-                        );
-                    });
+                for warning in warnings(&told, &now) {
+                    bar.suspend(|| complain!("WARNING: {warning}"));
                 }
-                if now.log_failed && !told_of_log {
-                    told_of_log = true;
-                    bar.suspend(|| {
-                        complain!("WARNING: the log cannot be written any further; flying on");
-                    });
-                }
+                told = now;
             }
             flying.join()
         });
@@ -305,6 +291,45 @@ impl Plan {
         let landing = landing.map_err(|_| anyhow::anyhow!("the flight died of a fault of ours"))?;
         Ok(landing?)
     }
+}
+
+/// Where the flight is, in a line.
+fn line(now: &Snapshot, phases: &[&str]) -> String {
+    // Phases count from 1; 0 is before the first.
+    let phase = usize::try_from(now.phase)
+        .ok()
+        .and_then(|number| phases.get(number.checked_sub(1)?).copied());
+    format!(
+        "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  {} late  {}",
+        now.tick as f64 * STEP_S,
+        now.height_m,
+        engine::units::knots(now.airspeed_mps),
+        report::compass_deg(now.heading_rad),
+        now.overruns,
+        phase.unwrap_or("")
+    )
+}
+
+/// What the crew is to know, and has not been told.
+fn warnings(told: &Snapshot, now: &Snapshot) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if now.slips > told.slips {
+        let slip_s = now.slipped_s - told.slipped_s;
+        warnings.push(format!(
+            "the clock slipped by {slip_s:.1} s: the process stood still, and so did the flight"
+        ));
+    }
+    if now.mismatches > 0 && told.mismatches == 0 {
+        warnings.push(
+            "the flight is not the same when reflown: do not trust this machine, or report this; the \
+             log says where"
+                .into(),
+        );
+    }
+    if now.log_failed && !told.log_failed {
+        warnings.push("the log cannot be written any further; flying on".into());
+    }
+    warnings
 }
 
 fn pilot_names() -> String {

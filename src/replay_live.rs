@@ -42,8 +42,8 @@ pub fn run(args: &Args) -> Result<Status> {
         .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
-    let pace = Pace::at_speed(args.speed);
-    let mut ticks = 0;
+    let mut pace = Pace::at_speed(args.speed);
+    let (mut ticks, mut slipped_ns) = (0, 0);
     let mut told = false;
     let mut facts = Facts::of_reflight(&flight);
     let disorder = loop {
@@ -52,7 +52,11 @@ pub fn run(args: &Args) -> Result<Status> {
             Ok(None) => break None,
             Err(error) => break Some(disorder(error)?),
         };
-        pace.wait(ticks);
+        let woken = pace.wait(ticks);
+        if woken.slip_ns > 0 {
+            slipped_ns += woken.slip_ns;
+            complain!("tiltrotor: {}", recorder::writer::slipped(woken.slip_ns));
+        }
         link.send(reflown.outputs);
         let exact = reflown.exact;
         facts.add(reflown.recorded, Some(exact));
@@ -76,6 +80,9 @@ pub fn run(args: &Args) -> Result<Status> {
         link.destination(),
         link.dropped()
     );
+    if slipped_ns > 0 {
+        say!("the clock slipped by {:.3} s in all", slipped_ns as f64 * 1e-9);
+    }
     if let Some(versions) = &flight.versions() {
         say!("{versions}");
     }

@@ -4,8 +4,8 @@ use engine::STEP_S;
 use engine::units::degrees;
 use logs::LogError;
 use logs::text::size;
-use recorder::Landing;
 use recorder::statistics::Durations;
+use recorder::{End, Landing};
 use replay::ReplayError;
 
 /// Why a log is not reflown, and what can be done about it.
@@ -39,6 +39,15 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     if real_time {
         say!("overruns   {} ticks ended after the next one was due", flown.overruns);
         line("late by", &flown.late, "from when a tick was due until it ran");
+    }
+    if flown.slips > 0 {
+        say!(
+            "slips      the clock slipped {} times, {:.3} s at most, {:.3} s in all: the process stood \
+             still, and so did the flight",
+            flown.slips,
+            flown.slip_ns_max as f64 * 1e-9,
+            flown.slip_ns as f64 * 1e-9
+        );
     }
     line("step", &flown.step, "the flight model");
     line("hand-over", &flown.record, "to the log's writer");
@@ -82,6 +91,9 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
             checked.busy.as_secs_f64()
         );
         line("", &checked.hand_over, "what it cost the loop");
+    }
+    if !matches!(landing.end, End::Done | End::TimeUp) {
+        say!("end        {}", landing.end);
     }
     for refused in &landing.refused {
         say!("note       {refused}");

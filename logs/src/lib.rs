@@ -29,7 +29,7 @@ mod writer;
 
 pub use codec::{cdr, evolution, fields, layout, schema, units};
 pub use error::LogError;
-pub use narrator::Narrator;
+pub use narrator::{Narrator, Observed};
 pub use open::OpenOptions;
 pub use reader::{Ending, FlightReader, Message, Messages, Remade, Tick, closing, marker, open};
 pub use recover::{Recovery, recover};

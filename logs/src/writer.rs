@@ -184,13 +184,16 @@ impl FlightWriter {
         tick: u64,
         what: Happening,
         value: u64,
+        measured: [f64; 2],
         words: &str,
     ) -> Result<(), LogError> {
         let level = what.facts().levels.of(value);
-        let record = EventRecord { tick, kind: what as u64, value, measured: [0.0; 2] };
-        self.record(ChannelId::Events, tick, &record)?;
+        let record = EventRecord { tick, kind: what as u64, value, measured };
+        // What is found out later is told later: log times never go back.
+        let told_tick = tick.max(self.last_tick);
+        self.record(ChannelId::Events, told_tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;
-        self.put(ChannelId::Log, tick, &message)
+        self.put(ChannelId::Log, told_tick, &message)
     }
 
     /// A message of another log as it stands there; `false` when no channel of ours is called so.

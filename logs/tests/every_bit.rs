@@ -133,7 +133,7 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
         writer
             .timing(&TimingRecord { tick, step_ns: 9_000, ..Default::default() })
             .expect("written");
-        writer.happened(tick, Happening::Marker, 1, "marker 1").expect("written");
+        writer.happened(tick, Happening::Marker, 1, [0.0; 2], "marker 1").expect("written");
         let outputs = Outputs { tick: 50 * tick, ..Default::default() };
         writer.view(&outputs, state.plant.attitude).expect("written");
         writer.flush().expect("written");

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use engine::Outputs;
 use logs::{Closed, LogError};
 
+use crate::end::End;
 use crate::self_check::Checked;
 use crate::statistics::Statistics;
 use crate::writer::Delay;
@@ -34,6 +35,6 @@ pub struct Landing {
     pub checked: Option<Checked>,
     /// What the system did not grant.
     pub refused: Vec<String>,
-    /// Whether someone ended it.
-    pub stopped: bool,
+    /// Why it ended.
+    pub end: End,
 }

@@ -7,7 +7,8 @@ use logs::output::Output;
 use logs::records::{EventRecord, Happening};
 use logs::view::Remark;
 use logs::{
-    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Messages, Narrator, Setup, Tick,
+    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Messages, Narrator, Observed,
+    Setup, Tick,
 };
 
 use crate::refly::{OPEN, ReplayError, read};
@@ -97,7 +98,7 @@ pub fn rewrite(
         FlightWriter::create(new.out.file()?, new.setup, new.identity, aircraft, &shape, initial)?;
     let mut touchdown_ticks = Vec::new();
     let mut written = || -> Result<(), ReplayError> {
-        let mut narrator = Narrator::new(initial);
+        let mut narrator = Narrator::new(initial, &aircraft.envelope.airframe);
         let mut state = *initial;
         let log = new.picture_of.filter(|_| same_aircraft && reader.initial == *initial);
         let pictured = log.map(|log| take_picture(log, state.tick, &mut writer)).transpose()?;
@@ -118,13 +119,12 @@ pub fn rewrite(
             let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
             let (next, outputs) = step(aircraft, &state, &inputs);
             state = next;
-            writer.state(&state)?;
-            narrator.state(&mut writer, &state)?;
             for timing in reader.timings.drain(..).filter(|_| new.timing) {
                 writer.timing(&timing)?;
             }
+            writer.state(&state)?;
+            narrator.state(&mut writer, &state, &Observed::of(&outputs))?;
             writer.view(&outputs, state.plant.attitude)?;
-            narrator.outputs(&mut writer, &outputs)?;
             watch(&reader.tick, &state, &outputs, reader);
             reader.outputs.retain(|outputs| outputs.tick > state.tick);
         }
@@ -161,9 +161,10 @@ fn crew_said(
         |event: &&EventRecord| event.kind == Happening::WeightOnWheels as u64 && event.value == 1;
     touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
     for (event, remark) in happenings.iter().zip(&remarks) {
-        if let Some(what @ (Happening::Phase | Happening::Landed)) = Happening::from_u64(event.kind)
+        if let Some(what @ (Happening::Phase | Happening::Landed | Happening::GaveUp)) =
+            Happening::from_u64(event.kind)
         {
-            writer.happened(event.tick, what, event.value, &remark.words)?;
+            writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
         }
     }
     Ok(())
