@@ -138,7 +138,7 @@ part=$("$program" log --help | grep -qw clip && echo clip || echo trim)
 faults "log $part" whole out.mcap precious log "$part" log.mcap --from 50t --until 150t \
     --force --out out.mcap
 faults "log recover" whole out.mcap precious log recover cut.mcap --force --out out.mcap
-faults "whatif" whole out.mcap precious whatif log.mcap --set envelope.load_factor_max=9 --force \
+faults "whatif" whole out.mcap precious whatif log.mcap --set fcc.travel.pedal_in=2 --force \
     --out out.mcap
 faults "trim --csv" whole out.csv precious trim --speed-kt 0 --nacelle 90 --csv out.csv
 faults "linearize --csv" whole out.csv precious linearize --speed-kt 0 --nacelle 90 --csv out.csv
