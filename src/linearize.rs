@@ -77,6 +77,9 @@ const OMEGAS: [f64; 11] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.
 
 /// Trims, linearises, and prints modes and matrices.
 pub fn run(args: &Args) -> Result<Status> {
+    if let Some(path) = &args.csv {
+        output::refuse(path, true, &args.condition.files())?;
+    }
     let (aircraft, target) = args.condition.read()?;
     let trim = match trim(&aircraft, &target) {
         Ok(trim) => trim,

@@ -110,6 +110,9 @@ impl Column {
 
 /// Trims, and prints a list or a table.
 pub fn run(args: &Args) -> Result<Status> {
+    if let Some(path) = &args.csv {
+        output::refuse(path, true, &args.condition.files())?;
+    }
     let (aircraft, target) = args.condition.read()?;
     let speeds_kt = match &args.sweep {
         Some(Sweep(speeds)) => speeds.clone(),

@@ -71,7 +71,7 @@ fn verbs<'a>(log: &'a str, compact: &'a str, broken: &'a str) -> Vec<(&'a str, V
         (log, vec!["log", "compact", log]),
         (compact, vec!["log", "expand", compact]),
         (log, vec!["log", "trim", log, "--from", "50t", "--until", "150t"]),
-        (log, vec!["whatif", log, "--set", "envelope.load_factor_max=9"]),
+        (log, vec!["whatif", log, "--set", "fcc.travel.pedal_in=2"]),
         (broken, vec!["log", "recover", broken]),
     ]
 }
@@ -110,8 +110,8 @@ fn an_older_log_is_kept_until_the_new_flight_has_closed() {
     let old = fs::read(&log).expect("a log");
     let flying = Flying::begin(&log, &["--force"]);
     assert!(fs::read(&aside).expect("set aside") == old);
-    verify(&log).ends(INCOMPLETE);
     assert_eq!(flying.end("KILL"), None);
+    verify(&log).ends(INCOMPLETE);
     assert!(fs::read(&aside).expect("still there") == old);
     fs::rename(&aside, &log).expect("put back by hand");
     assert_eq!(Flying::begin(&log, &["--force"]).end("TERM"), Some(OK));
