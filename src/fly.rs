@@ -16,7 +16,7 @@ use recorder::script::Script;
 use recorder::{Flight, Landing, Progress, fly};
 
 use crate::status::Status;
-use crate::{condition, identity, report};
+use crate::{condition, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
 #[derive(clap::Args)]
@@ -39,6 +39,7 @@ pub struct Args {
     air: Air,
     /// End the flight after this long, s
     #[arg(long, value_name = "SECONDS")]
+    #[arg(value_parser = numbers::duration_s, allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Refly each second on a spare thread while flying, and warn when a bit is not the same
     #[arg(long)]
@@ -53,22 +54,27 @@ struct Air {
     from_trim: bool,
     /// Nacelle incidence of that flight: 90 helicopter, 0 aeroplane, deg
     #[arg(long, value_name = "DEG", requires = "from_trim", default_value_t = 90.0)]
+    #[arg(value_parser = numbers::nacelle_deg, allow_negative_numbers = true)]
     nacelle: f64,
     /// True airspeed, kt
     #[arg(long, value_name = "KT", requires = "from_trim", default_value_t = 0.0)]
+    #[arg(value_parser = numbers::speed_kt, allow_negative_numbers = true)]
     speed_kt: f64,
     /// Above mean sea level, ft
     #[arg(long, value_name = "FT", requires = "from_trim", default_value_t = 1000.0)]
+    #[arg(value_parser = numbers::altitude_ft, allow_negative_numbers = true)]
     altitude_ft: f64,
     /// Rate of climb, ft/min
     #[arg(long, value_name = "FPM", requires = "from_trim", default_value_t = 0.0)]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(value_parser = numbers::climb_fpm, allow_negative_numbers = true)]
     climb_fpm: f64,
     /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
     #[arg(long, value_name = "DEG", requires = "from_trim")]
+    #[arg(value_parser = numbers::flap_deg, allow_negative_numbers = true)]
     flap: Option<f64>,
     /// Rotor speed, rpm (without: the slowest below 1 deg of nacelle)
     #[arg(long, value_name = "RPM", requires = "from_trim")]
+    #[arg(value_parser = numbers::rotor_rpm, allow_negative_numbers = true)]
     rpm: Option<f64>,
 }
 
@@ -91,11 +97,23 @@ pub struct Common {
     #[arg(long)]
     pub force: bool,
     /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
-    #[arg(long, value_name = "HOST:PORT", default_value = flightgear::DEFAULT_DESTINATION)]
-    pub flightgear: String,
+    /// [default: 127.0.0.1:5501; nothing is sent with --fast]
+    #[arg(long, value_name = "HOST:PORT")]
+    flightgear: Option<String>,
     /// Send nothing to FlightGear
     #[arg(long, conflicts_with = "flightgear")]
-    pub no_flightgear: bool,
+    no_flightgear: bool,
+}
+
+impl Common {
+    /// Where the pictures go. A flight as fast as it goes would fly over somebody's flight in real time.
+    fn destination(&self) -> Option<&str> {
+        match &self.flightgear {
+            Some(destination) => Some(destination),
+            None if self.no_flightgear || self.fast => None,
+            None => Some(flightgear::DEFAULT_DESTINATION),
+        }
+    }
 }
 
 /// Flies, and sums up.
@@ -103,11 +121,7 @@ pub fn run(args: &Args) -> Result<Status> {
     let mut plan = Plan::new(&args.common)?;
     plan.flight.self_check = args.self_check;
     if let Some(seconds) = args.duration {
-        let ticks = (seconds / STEP_S).round();
-        if !(ticks.is_finite() && ticks >= 1.0) {
-            bail!("--duration {seconds}: expected {STEP_S} s (one tick) or more");
-        }
-        plan.flight.ticks_max = Some(ticks as u64);
+        plan.flight.ticks_max = Some((seconds / STEP_S).round() as u64);
     }
     if args.air.from_trim {
         plan.begin_in(&args.air)?;
@@ -169,7 +183,7 @@ impl Plan {
             );
         }
         let robot_description = aircraft::urdf(&aircraft);
-        let link = if common.no_flightgear { None } else { Some(Link::new(&common.flightgear)?) };
+        let link = common.destination().map(Link::new).transpose()?;
         if common.out.exists() && !common.force {
             bail!(
                 "{} exists; name another file with --out, or overwrite it with --force",

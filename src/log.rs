@@ -3,6 +3,7 @@
 mod cat;
 mod compact;
 mod export;
+mod files;
 mod trim;
 
 use std::collections::BTreeMap;
@@ -28,6 +29,8 @@ pub enum Command {
     },
     /// Every recorded number of a log, a line of JSON a message, units in the names
     Cat(cat::Args),
+    /// The files in a log: aircraft, cockpit map, scenario and whatever else was attached
+    Files(files::Args),
     /// Logs as tables, CSV or Parquet, units in the columns' names: a folder a channel, a file a flight
     Export(export::Args),
     /// What an engineer reads of a flight: events, greatest values and when, touchdown, where it ended
@@ -61,6 +64,7 @@ pub fn run(command: &Command) -> Result<Status> {
     match command {
         Command::Info { log } => info(log),
         Command::Cat(args) => cat::run(args),
+        Command::Files(args) => files::run(args),
         Command::Export(args) => export::run(args),
         Command::Summary { log, window } => summary(log, window),
         Command::Trim(args) => trim::run(args),

@@ -24,6 +24,7 @@ mod identity;
 mod json;
 mod linearize;
 mod log;
+mod numbers;
 mod replay_live;
 mod report;
 mod status;
@@ -41,7 +42,7 @@ use status::Status;
 
 /// A deterministic, piloted simulation of the Bell XV-15, and the tooling around its log.
 #[derive(Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(version = env!("TILTROTOR_VERSION"), arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -75,8 +76,17 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let matches = status::explained(Cli::command()).get_matches();
-    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let parsed = status::explained(Cli::command())
+        .try_get_matches()
+        .and_then(|matches| Cli::from_arg_matches(&matches));
+    let cli = match parsed {
+        Ok(cli) => cli,
+        Err(error) => {
+            let Some(words) = numbers::in_words(&error) else { error.exit() };
+            complain!("tiltrotor: {words}");
+            return Status::Unusable.into();
+        }
+    };
     let run = match cli.command {
         Command::Fly(args) => fly::run(&args),
         Command::Replay(args) => replay_live::run(&args),

@@ -9,6 +9,7 @@ use logs::Ending;
 use recorder::Pace;
 use replay::{Reflight, ReflyOptions};
 
+use crate::numbers::between;
 use crate::report;
 use crate::status::Status;
 use crate::window::WindowArgs;
@@ -23,6 +24,7 @@ pub struct Args {
     flightgear: String,
     /// Times real time
     #[arg(long, default_value_t = 1.0)]
+    #[arg(value_parser = between(0.01, 1000.0, "times real time"), allow_negative_numbers = true)]
     speed: f64,
     #[command(flatten)]
     window: WindowArgs,
@@ -33,9 +35,6 @@ pub struct Args {
 
 /// Reflies the log and sends every tick's picture.
 pub fn run(args: &Args) -> Result<Status> {
-    if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
-        bail!("--speed {}: expected 0.01 to 1000", args.speed);
-    }
     let window = args.window.of(&args.log)?;
     let options = ReflyOptions { window, across_versions: args.across_versions };
     let mut flight = Reflight::open(&args.log, &options)

@@ -27,7 +27,7 @@ pub enum Status {
 use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusable};
 
 /// The statuses with which each verb ends.
-const VERBS: [(&str, &[Status]); 17] = [
+const VERBS: [(&str, &[Status]); 18] = [
     ("fly", &[Done, Unusable, CutShort]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
@@ -38,6 +38,7 @@ const VERBS: [(&str, &[Status]); 17] = [
     ("log info", &[Done, Unusable]),
     ("log summary", &[Done, Differs, Unusable, NeverClosed]),
     ("log cat", &[Done, Unusable, NeverClosed]),
+    ("log files", &[Done, Unusable, NeverClosed]),
     ("log export", &[Done, Unusable, NeverClosed]),
     ("log trim", &[Done, Unusable]),
     ("log compact", &[Done, Unusable]),

@@ -24,7 +24,7 @@ pub use diff::{
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use judgement::{End, Facts, Judgement, Outcome};
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
-pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
+pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite, rewrite_in};
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};
 pub use verify::{Options, Verdict, verify};
