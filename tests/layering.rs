@@ -35,7 +35,7 @@ const KEPT: &[(&str, &str)] = &[
 ];
 
 /// All that the engine may know of the world.
-const ENGINE_KNOWS: &[&str] = &["bitflags", "libm", "nalgebra", "serde"];
+const ENGINE_KNOWS: &[&str] = &["bitflags", "libm", "nalgebra", "serde", "wide"];
 
 /// All that the analysis beside it may know.
 const ANALYSIS_KNOWS: &[&str] = &["engine", "nalgebra"];

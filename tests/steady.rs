@@ -40,6 +40,23 @@ fn the_modes_and_the_matrices_of_a_cruise() {
     tiltrotor(&all).ends(OK).says("short period").says("phugoid").says("deg/s/in");
     let written = fs::read_to_string(&csv).expect("the matrices");
     assert!(written.contains("\nA,pitch_rad,pitch_rate_radps,"), "{}", &written[..200]);
+    assert!(written.contains("\neigenvalue,0,re_per_s,-0."), "the slowest mode");
+}
+
+/// Ten actuators with one lag give repeated eigenvalues, on which iterations stand still.
+#[test]
+fn every_mode_with_the_scas_on_is_a_number() {
+    let slow = ["linearize", "--nacelle", "90", "--speed-kt", "30", "--scas", "--fast"];
+    let said = tiltrotor(&slow).ends(OK).says("SCAS washout");
+    assert!(!said.out.contains("NaN"), "{}", said.out);
+}
+
+#[test]
+fn what_has_no_steady_flight_is_not_linearised() {
+    let csv = folder("not-linear").join("linear.csv");
+    let slow = ["linearize", "--nacelle", "0", "--speed-kt", "40", "--csv", text(&csv)];
+    tiltrotor(&slow).ends(NO_TRIM).says("no steady flight");
+    assert!(!csv.exists());
 }
 
 #[test]

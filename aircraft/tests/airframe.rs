@@ -5,8 +5,11 @@
 //! advance ratio and elevator forced, so that no trim stands between the two numbers.
 
 use engine::Aircraft;
-use engine::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
-use engine::frames::{Body, Load, Vec3};
+use engine::aero::{
+    fuselage, horizontal_stabilizer, local_flow, rotor_wake, vertical_stabilizers, wing_pylon,
+};
+use engine::frames::{Load, Vec3};
+use engine::mast::TiltedMast;
 use engine::math::{PI, sqrt, square};
 use engine::motion::Motion;
 use engine::pair::Pair;
@@ -93,14 +96,17 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         angular_rate_radps: Vec3::zero(),
         density_kg_per_m3: 0.002_377 * SLUG_PER_FT3,
     };
+    let flow = local_flow(motion.airspeed_mps, motion.density_kg_per_m3);
     let mach = motion.airspeed_mps.norm() / engine::isa::SOUND_SPEED_SL_MPS;
     let (flap_rad, elevator_rad) = (40.0 * DEG, trim.elevator_deg * DEG);
     let [x, y, z] = trim.rotor_lbf;
-    let axis = Vec3::<Body>::new(0.0, 0.0, -1.0);
+    let mast = TiltedMast::new(0.0, 0.0);
+    let axis = mast.thrust_axis;
     let wake = rotor_wake::evaluate(
         &xv15.rotor_wake,
         &rotor_wake::Inputs {
             motion,
+            flow,
             mast_tilt_rad: 0.0,
             thrust_axes: Pair::both(axis),
             induced_mps: Pair::both(trim.induced_ftps * FT),
@@ -114,11 +120,11 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
         &xv15.wing_pylon,
         &wing_pylon::Inputs {
             motion,
+            flow,
             mach,
             alpha_rad: wake.wing_alpha_rad,
             wake_mps: wake.wing_mps.right,
-            mast_tilt_rad: 0.0,
-            thrust_axis: axis,
+            mast,
             induced_mps: trim.induced_ftps * FT,
             rotor_radius_m: xv15.rotors.radius_m,
             pivot_m: xv15.rotors.pivot_m,
@@ -127,30 +133,34 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
             flaperon_rad: 0.0,
         },
     );
+    let pressure_ratio = xv15.horizontal_stabilizer.pressure_ratio_at(0.0, &flow);
     let tail_inputs = horizontal_stabilizer::Inputs {
         motion,
+        flow,
         mach,
         wing_alpha_rad: wake.wing_alpha_rad,
         wake_mps: wake.tail_mps,
         mast_tilt_rad: 0.0,
         flap_rad,
         elevator_rad,
+        pressure_ratio,
     };
     let settled = horizontal_stabilizer::State {
         downwash_rad: xv15.horizontal_stabilizer.downwash(&tail_inputs),
     };
     let fin_inputs = vertical_stabilizers::Inputs {
         motion,
+        flow,
         mach,
         mast_tilt_rad: 0.0,
         flap_rad,
-        pressure_ratio: xv15.horizontal_stabilizer.pressure_ratio_at(0.0, &motion),
+        pressure_ratio,
         rudder_rad: 0.0,
     };
     Loads {
         fuselage: fuselage::evaluate(
             &xv15.fuselage,
-            &fuselage::Inputs { motion, gear_extension_norm: 0.0 },
+            &fuselage::Inputs { motion, flow, gear_extension_norm: 0.0 },
         ),
         free_wing: both(half.free_stream),
         immersed_wing: both(half.immersed),

@@ -1,7 +1,7 @@
 //! The airframe's tables: as printed, without jumps, the same on both sides, finite everywhere.
 
 use engine::aero::polar::{ByFlap, ByMach, Flap, Polar};
-use engine::aero::vertical_stabilizers;
+use engine::aero::{local_flow, vertical_stabilizers};
 use engine::frames::{Attitude, Euler, Load, Vec3};
 use engine::inputs::World;
 use engine::math::PI;
@@ -374,6 +374,7 @@ fn the_fins_turn_the_nose_into_the_wind() {
         };
         let inputs = vertical_stabilizers::Inputs {
             motion,
+            flow: local_flow(motion.airspeed_mps, motion.density_kg_per_m3),
             mach: 0.31,
             mast_tilt_rad: 0.5 * PI,
             flap_rad: 0.0,

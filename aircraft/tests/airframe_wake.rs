@@ -2,7 +2,7 @@
 
 use engine::Aircraft;
 use engine::aero::wake_footprint::{Footprint, footprint};
-use engine::aero::wing_pylon;
+use engine::aero::{local_flow, wing_pylon};
 use engine::frames::{Body, Vec3};
 use engine::motion::Motion;
 use engine::units::{DEGREE_RAD as DEG, FOOT_M as FT, INCH_M as INCH, KNOT_MPS as KT};
@@ -16,7 +16,7 @@ fn xv15() -> Aircraft {
 
 fn inputs(xv15: &Aircraft, tilt_rad: f64, velocity: Vec3<Body>, v: f64) -> wing_pylon::Inputs {
     let cg_m = Vec3::new(301.2 * INCH, 0.0, 81.65 * INCH);
-    let thrust_axis = xv15.rotors.thrust_axis(tilt_rad);
+    let mast = xv15.rotors.mast(tilt_rad);
     let motion = Motion {
         cg_m,
         airspeed_mps: velocity,
@@ -25,15 +25,15 @@ fn inputs(xv15: &Aircraft, tilt_rad: f64, velocity: Vec3<Body>, v: f64) -> wing_
     };
     wing_pylon::Inputs {
         motion,
+        flow: local_flow(motion.airspeed_mps, motion.density_kg_per_m3),
         mach: 0.0,
         alpha_rad: engine::math::atan2(velocity.z, velocity.x),
-        wake_mps: thrust_axis * (xv15.rotor_wake.wing_factor * v),
-        mast_tilt_rad: tilt_rad,
-        thrust_axis,
+        wake_mps: mast.thrust_axis * (xv15.rotor_wake.wing_factor * v),
+        mast,
         induced_mps: v,
         rotor_radius_m: xv15.rotors.radius_m,
         pivot_m: xv15.rotors.pivot_m,
-        hub_from_cg_m: xv15.rotors.hub_from_cg(cg_m, tilt_rad),
+        hub_from_cg_m: xv15.rotors.hub_from_cg(cg_m, &mast),
         flap_rad: 40.0 * DEG,
         flaperon_rad: 0.0,
     }

@@ -2,7 +2,7 @@
 
 mod rotor_stand;
 
-use engine::aero::wing_pylon;
+use engine::aero::{local_flow, wing_pylon};
 use engine::frames::Vec3;
 use engine::inputs::World;
 use engine::math::{PI, square};
@@ -84,20 +84,20 @@ fn cockpit_maps_and_scenario_load() {
 /// Download over thrust with the flaps at a detent.
 fn download(xv15: &Aircraft, detent: usize) -> f64 {
     let at = hover_at(&xv15.rotors, 589.0, 0.0105);
-    let (motion, thrust_axis) = (hovering(589.0, 0.0).motion, xv15.rotors.thrust_axis(0.0));
+    let (motion, mast) = (hovering(589.0, 0.0).motion, xv15.rotors.mast(0.0));
     let load = wing_pylon::evaluate(
         &xv15.wing_pylon,
         &wing_pylon::Inputs {
             motion,
+            flow: local_flow(motion.airspeed_mps, motion.density_kg_per_m3),
             mach: 0.0,
             alpha_rad: 0.0,
-            wake_mps: thrust_axis * (xv15.rotor_wake.wing_factor * at.out.induced_mps),
-            mast_tilt_rad: 0.0,
-            thrust_axis,
+            wake_mps: mast.thrust_axis * (xv15.rotor_wake.wing_factor * at.out.induced_mps),
+            mast,
             induced_mps: at.out.induced_mps,
             rotor_radius_m: xv15.rotors.radius_m,
             pivot_m: xv15.rotors.pivot_m,
-            hub_from_cg_m: xv15.rotors.hub_from_cg(motion.cg_m, 0.0),
+            hub_from_cg_m: xv15.rotors.hub_from_cg(motion.cg_m, &mast),
             flap_rad: xv15.fcc.mixer.flap_rad[detent],
             flaperon_rad: 0.0,
         },

@@ -59,6 +59,31 @@ pub struct Params {
     pub gear_s: f64,
 }
 
+/// 1 − e^(−h/τ) of each kind: what part of the way to its command it goes in a tick.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts {
+    collective: f64,
+    cyclic: f64,
+    elevator: f64,
+    flaperon: f64,
+    rudder: f64,
+    flap: f64,
+}
+
+impl Params {
+    /// What follows from the lags.
+    pub fn parts(&self) -> Parts {
+        Parts {
+            collective: self.collective.part(),
+            cyclic: self.cyclic.part(),
+            elevator: self.elevator.part(),
+            flaperon: self.flaperon.part(),
+            rudder: self.rudder.part(),
+            flap: self.flap.part(),
+        }
+    }
+}
+
 /// Where everything is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -89,8 +114,12 @@ pub struct State {
 }
 
 impl Actuator {
-    fn toward(&self, position_rad: f64, command_rad: f64) -> f64 {
-        let step_rad = (command_rad - position_rad) * (1.0 - exp(-STEP_S / self.lag_s));
+    fn part(&self) -> f64 {
+        1.0 - exp(-STEP_S / self.lag_s)
+    }
+
+    fn toward(&self, part: f64, position_rad: f64, command_rad: f64) -> f64 {
+        let step_rad = (command_rad - position_rad) * part;
         let step_rad_max = self.rate_radps_max * STEP_S;
         clamp(
             position_rad + clamp(step_rad, -step_rad_max, step_rad_max),
@@ -100,10 +129,10 @@ impl Actuator {
     }
 }
 
-/// Positions one tick later.
-pub fn update(params: &Params, state: &State, commands: &Commands) -> State {
-    let both = |actuator: &Actuator, position: Pair<f64>, command: Pair<f64>| {
-        position.zip(command).map(|(at, to)| actuator.toward(at, to))
+/// Positions one tick later; `parts` are those of [`Params::parts`].
+pub fn update(params: &Params, parts: &Parts, state: &State, commands: &Commands) -> State {
+    let both = |actuator: &Actuator, part: f64, position: Pair<f64>, command: Pair<f64>| {
+        position.zip(command).map(|(at, to)| actuator.toward(part, at, to))
     };
     let mast_tilt_rad = state.mast_tilt_rad.map(|tilt_rad| {
         let rate_radps = -commands.nacelle_aft_norm * params.nacelle_radps.at(tilt_rad);
@@ -112,21 +141,41 @@ pub fn update(params: &Params, state: &State, commands: &Commands) -> State {
     let gear_step = STEP_S / params.gear_s;
     let gear_wanted = if commands.gear_down != 0 { 1.0 } else { 0.0 };
     State {
-        collective_rad: both(&params.collective, state.collective_rad, commands.collective_rad),
+        collective_rad: both(
+            &params.collective,
+            parts.collective,
+            state.collective_rad,
+            commands.collective_rad,
+        ),
         cyclic_forward_rad: both(
             &params.cyclic,
+            parts.cyclic,
             state.cyclic_forward_rad,
             commands.cyclic_forward_rad,
         ),
         cyclic_outboard_rad: both(
             &params.cyclic,
+            parts.cyclic,
             state.cyclic_outboard_rad,
             commands.cyclic_outboard_rad,
         ),
-        elevator_rad: params.elevator.toward(state.elevator_rad, commands.elevator_rad),
-        flaperon_rad: both(&params.flaperon, state.flaperon_rad, commands.flaperon_rad),
-        rudder_right_rad: params.rudder.toward(state.rudder_right_rad, commands.rudder_right_rad),
-        flap_rad: params.flap.toward(state.flap_rad, commands.flap_rad),
+        elevator_rad: params.elevator.toward(
+            parts.elevator,
+            state.elevator_rad,
+            commands.elevator_rad,
+        ),
+        flaperon_rad: both(
+            &params.flaperon,
+            parts.flaperon,
+            state.flaperon_rad,
+            commands.flaperon_rad,
+        ),
+        rudder_right_rad: params.rudder.toward(
+            parts.rudder,
+            state.rudder_right_rad,
+            commands.rudder_right_rad,
+        ),
+        flap_rad: params.flap.toward(parts.flap, state.flap_rad, commands.flap_rad),
         mast_tilt_rad,
         mast_tilt_rate_radps: mast_tilt_rad
             .zip(state.mast_tilt_rad)
@@ -166,10 +215,11 @@ mod tests {
     #[test]
     fn an_actuator_lags_and_keeps_to_its_rate_and_travel() {
         let actuator = Actuator { lag_s: 0.1, rate_radps_max: 0.5, rad_min: -0.1, rad_max: 0.1 };
-        let slow = actuator.toward(0.0, 10.0);
+        let part = actuator.part();
+        let slow = actuator.toward(part, 0.0, 10.0);
         assert!((slow - 0.5 * STEP_S).abs() < 1e-15);
-        let free = actuator.toward(0.0, 0.01);
+        let free = actuator.toward(part, 0.0, 0.01);
         assert!((free - 0.01 * (1.0 - exp(-0.04))).abs() < 1e-15);
-        assert!((actuator.toward(0.0999, 5.0) - 0.1).abs() < 1e-15);
+        assert!((actuator.toward(part, 0.0999, 5.0) - 0.1).abs() < 1e-15);
     }
 }

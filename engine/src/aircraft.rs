@@ -19,12 +19,14 @@ pub struct Aircraft {
     params: Params,
     /// Both rotors' blade, by elements.
     pub(crate) blade: blade::Blade,
+    /// How far the actuators go in a tick.
+    pub(crate) actuator_parts: actuators::Parts,
 }
 
 impl Aircraft {
     /// The aircraft of these parameters.
     pub fn new(params: Params) -> Self {
-        Self { blade: params.rotors.blade(), params }
+        Self { blade: params.rotors.blade(), actuator_parts: params.actuators.parts(), params }
     }
 
     /// The same aircraft with parameters changed.

@@ -99,9 +99,14 @@ pub fn air(height_m: f64, world: &World) -> Outputs {
     let standard_k = TEMPERATURE_SL_K - LAPSE_K_PER_M * in_troposphere_m;
     let exponent = GRAVITY_MPS2 / (GAS_J_PER_KG_K * LAPSE_K_PER_M);
     let above_m = height_m - in_troposphere_m;
+    let stratosphere = if above_m > 0.0 {
+        exp(-GRAVITY_MPS2 * above_m / (GAS_J_PER_KG_K * standard_k))
+    } else {
+        1.0
+    };
     let pressure_pa = (PRESSURE_SL_PA + clamp(world.pressure_offset_pa, -20e3, 20e3))
         * pow_positive(standard_k / TEMPERATURE_SL_K, exponent)
-        * exp(-GRAVITY_MPS2 * above_m / (GAS_J_PER_KG_K * standard_k));
+        * stratosphere;
     let temperature_k = standard_k + clamp(world.temperature_offset_k, -80.0, 80.0);
     Outputs {
         density_kg_per_m3: pressure_pa / (GAS_J_PER_KG_K * temperature_k),

@@ -21,7 +21,7 @@ use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 use nalgebra::{Matrix3, Quaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::math::{asin, atan2, cos, sin, sqrt};
+use crate::math::{asin, atan2, sin_cos, sqrt};
 
 /// Stations of the drawings: aft, right, up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -230,8 +230,8 @@ impl Attitude {
     /// From roll, pitch and heading.
     pub fn from_euler(euler: Euler) -> Self {
         let about = |angle_rad: f64, i: f64, j: f64, k: f64| {
-            let s = sin(0.5 * angle_rad);
-            Quaternion::new(cos(0.5 * angle_rad), i * s, j * s, k * s)
+            let (s, c) = sin_cos(0.5 * angle_rad);
+            Quaternion::new(c, i * s, j * s, k * s)
         };
         let q = about(euler.heading_rad, 0.0, 0.0, 1.0)
             * about(euler.pitch_rad, 0.0, 1.0, 0.0)
@@ -270,13 +270,11 @@ impl Attitude {
     pub fn turned_by(self, turn_rad: Vec3<Body>) -> Self {
         let angle_rad = turn_rad.norm();
         // sin(x/2)/x by its series where the quotient would lose digits.
-        let half_sinc = if angle_rad > 1e-4 {
-            sin(0.5 * angle_rad) / angle_rad
-        } else {
-            0.5 - angle_rad * angle_rad / 48.0
-        };
+        let (s, c) = sin_cos(0.5 * angle_rad);
+        let half_sinc =
+            if angle_rad > 1e-4 { s / angle_rad } else { 0.5 - angle_rad * angle_rad / 48.0 };
         let v = turn_rad * half_sinc;
-        let turn = Quaternion::new(cos(0.5 * angle_rad), v.x, v.y, v.z);
+        let turn = Quaternion::new(c, v.x, v.y, v.z);
         Self::normalised(&(self.quaternion() * turn))
     }
 
@@ -326,7 +324,7 @@ impl Add for Load {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{FRAC_PI_2, PI};
+    use crate::math::{FRAC_PI_2, PI, cos, sin};
 
     fn close(a: f64, b: f64) -> bool {
         (a - b).abs() < 1e-12

@@ -29,7 +29,9 @@ pub mod inertia;
 pub mod inputs;
 pub mod isa;
 pub mod landing_gear;
+mod lanes;
 pub mod listing;
+pub mod mast;
 pub mod math;
 pub mod motion;
 pub mod outputs;
@@ -49,7 +51,7 @@ pub use aircraft::Aircraft;
 pub use inputs::Inputs;
 pub use outputs::Outputs;
 pub use state::State;
-pub use step::{observe, step};
+pub use step::{observe, step, step_state};
 
 /// Length of a tick, s. 250 Hz: every log time is a whole number of nanoseconds.
 pub const STEP_S: f64 = 0.004;

@@ -7,7 +7,7 @@ use crate::frames::{Body, Euler, Load, Ned, Vec3};
 use crate::isa::{PRESSURE_SL_PA, SOUND_SPEED_SL_MPS};
 use crate::landing_gear::Leg;
 use crate::listing::flags;
-use crate::math::{cos, sin, sqrt, square};
+use crate::math::{sin_cos, sqrt, square};
 use crate::pair::Pair;
 use crate::state::Geodetic;
 use crate::struts::Struts;
@@ -190,11 +190,12 @@ pub struct EulerRate {
 impl EulerRate {
     /// From body rates; near the vertical, where they grow without bound, as if 1° short of it.
     pub fn new(euler: Euler, rate: Vec3<Body>) -> Self {
-        let (s, c) = (sin(euler.roll_rad), cos(euler.roll_rad));
-        let cos_pitch = crate::math::max(cos(euler.pitch_rad), 0.017);
+        let (s, c) = sin_cos(euler.roll_rad);
+        let (sin_pitch, cos_pitch) = sin_cos(euler.pitch_rad);
+        let cos_pitch = crate::math::max(cos_pitch, 0.017);
         let heading_radps = (rate.y * s + rate.z * c) / cos_pitch;
         Self {
-            roll_radps: rate.x + heading_radps * sin(euler.pitch_rad),
+            roll_radps: rate.x + heading_radps * sin_pitch,
             pitch_radps: rate.y * c - rate.z * s,
             heading_radps,
         }
@@ -210,11 +211,11 @@ const ECCENTRICITY2: f64 = 6.694_379_990_141_33e-3;
 ///
 /// Heights are kept; lengths along the meridian and the parallel of the origin are kept.
 pub fn place(origin: &Geodetic, position_m: Vec3<Ned>) -> Geodetic {
-    let s = sin(origin.latitude_rad);
+    let (s, c) = sin_cos(origin.latitude_rad);
     let w2 = 1.0 - ECCENTRICITY2 * s * s;
     let w = sqrt(w2);
     let meridian_m = EARTH_M * (1.0 - ECCENTRICITY2) / (w2 * w) + origin.height_m;
-    let parallel_m = (EARTH_M / w + origin.height_m) * cos(origin.latitude_rad);
+    let parallel_m = (EARTH_M / w + origin.height_m) * c;
     Geodetic {
         latitude_rad: origin.latitude_rad + position_m.x / meridian_m,
         longitude_rad: origin.longitude_rad + position_m.y / parallel_m,

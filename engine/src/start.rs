@@ -6,7 +6,7 @@ use crate::frames::{Attitude, Euler, Ned, Vec3};
 use crate::inputs::{Inputs, World};
 use crate::pair::Pair;
 use crate::state::{Geodetic, Plant, State};
-use crate::{Aircraft, GRAVITY_MPS2, cockpit, environment, fcc, rotors, step};
+use crate::{Aircraft, GRAVITY_MPS2, cockpit, environment, fcc, rotors, step_state};
 
 /// How long the aircraft settles on its wheels before the flight, in ticks.
 ///
@@ -160,7 +160,7 @@ impl Start {
         // It settles in still air: what it settles to does not depend on the seed.
         let world = World { turbulence_mps: 0.0, ..self.world.world() };
         for _ in 0..SETTLING_TICKS {
-            (state, _) = step(aircraft, &state, &Inputs { events: &[], world });
+            step_state(aircraft, &mut state, &Inputs { events: &[], world });
         }
         state.tick = 0;
         state.plant.fuel_kg = self.fuel_kg;

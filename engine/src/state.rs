@@ -235,8 +235,18 @@ impl State {
     /// With every −0.0 made +0.0, so that equal states have equal bits.
     #[must_use]
     pub fn without_negative_zeros(mut self) -> Self {
-        self.each(&mut |number| *number += 0.0);
+        self.make_zeros_positive();
         self
+    }
+
+    /// Makes every −0.0 +0.0; says whether every number is finite.
+    pub(crate) fn make_zeros_positive(&mut self) -> bool {
+        let mut finite = true;
+        self.each(&mut |number| {
+            *number += 0.0;
+            finite &= number.is_finite();
+        });
+        finite
     }
 }
 

@@ -14,6 +14,7 @@ mod observed;
 use self::blocks::{Blocks, airspeed};
 use self::observed::outputs;
 use crate::aero::horizontal_stabilizer;
+use crate::controls::Commands;
 use crate::frames::Euler;
 use crate::inputs::World;
 use crate::landing_gear::RigidMotion;
@@ -25,29 +26,57 @@ use crate::{
 
 /// Advances the aircraft by one tick. Same arguments, same bits.
 pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
-    let pilot = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
-    let held = State { tick: state.tick.wrapping_add(1), cockpit: pilot, ..*state };
+    let mut next = *state;
+    let (blocks, commands) = tick(aircraft, state, inputs, &mut next);
+    let outputs = outputs(aircraft, &blocks, &next, &commands);
+    (next, outputs)
+}
+
+/// The same in place, for whoever does not look at the outputs.
+pub fn step_state(aircraft: &Aircraft, state: &mut State, inputs: &Inputs) {
+    let before = *state;
+    tick(aircraft, &before, inputs, state);
+}
+
+/// One tick of the state: `next` begins as a copy of it. What the blocks say of it, and what the
+/// computer asks for.
+fn tick(
+    aircraft: &Aircraft,
+    state: &State,
+    inputs: &Inputs,
+    next: &mut State,
+) -> (Blocks, Commands) {
+    next.tick = state.tick.wrapping_add(1);
+    next.cockpit = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
 
     // Sampled once, held through the tick.
     let (environment, air) = weather(state, &inputs.world);
     let sensed = sense(state, &air);
-    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &pilot, &sensed, &inputs.world);
+    let (fcc, commands) =
+        fcc::update(&aircraft.fcc, &state.fcc, &next.cockpit, &sensed, &inputs.world);
     if inputs.world.paused != 0 || state.frozen != 0 {
         // What the computer asks for stays to be seen; what it remembers does not move. The rates
         // of the tick before the pause stay too, so that the motion goes on as if there were none.
-        let blocks = Blocks::evaluate(aircraft, &held, &inputs.world, &air);
-        return (held, outputs(aircraft, &blocks, &held, &commands));
+        return (Blocks::evaluate(aircraft, next, &inputs.world, &air), commands);
     }
-    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
-    let sampled = State { fcc, actuators, environment, ..held };
+    next.actuators = moved(aircraft, state, &commands);
+    next.fcc = fcc;
+    next.environment = environment;
 
     // Integrated across the tick.
-    let blocks = Blocks::evaluate(aircraft, &sampled, &inputs.world, &air);
-    let plant = advance(&sampled.plant, &blocks, &state.rate);
-    let plant = above_ground(aircraft, plant, &inputs.world);
-    let next = State { plant, rate: blocks.rate, ..sampled }.without_negative_zeros();
-    let next = if next.is_finite() { next } else { State { frozen: 1, ..held } };
-    (next, outputs(aircraft, &blocks, &next, &commands))
+    let blocks = Blocks::evaluate(aircraft, next, &inputs.world, &air);
+    let plant = advance(&state.plant, &blocks, &state.rate);
+    next.plant = above_ground(aircraft, plant, &inputs.world);
+    next.rate = blocks.rate;
+    if !next.make_zeros_positive() {
+        *next = State { frozen: 1, tick: next.tick, cockpit: next.cockpit, ..*state };
+    }
+    (blocks, commands)
+}
+
+/// The actuators one tick later.
+fn moved(aircraft: &Aircraft, state: &State, commands: &Commands) -> actuators::State {
+    actuators::update(&aircraft.actuators, &aircraft.actuator_parts, &state.actuators, commands)
 }
 
 /// What can be observed of a state by itself, in a world that stands still: the controls are where they
@@ -66,7 +95,7 @@ pub fn derivatives(aircraft: &Aircraft, state: &State, world: &World) -> (State,
     let (environment, air) = weather(state, world);
     let sensed = sense(state, &air);
     let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
-    let actuators = actuators::update(&aircraft.actuators, &state.actuators, &commands);
+    let actuators = moved(aircraft, state, &commands);
     let blocks = Blocks::evaluate(aircraft, state, world, &air);
     let plant = advance(&state.plant, &blocks, &blocks.rate);
     let outputs = outputs(aircraft, &blocks, state, &commands);

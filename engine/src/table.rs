@@ -41,10 +41,12 @@ pub struct Table3 {
 }
 
 /// The interval of `x` that holds `at`, and how far into it `at` lies, 0..1.
+///
+/// Counting the inner points that lie below takes every table of a dozen points less time than halving
+/// it does: there is nothing for the CPU to guess.
 fn locate(x: &[f64], at: f64) -> (usize, f64) {
-    let last = x.len().saturating_sub(2);
-    let i = x.partition_point(|&point| point <= at).saturating_sub(1);
-    let i = if i < last { i } else { last };
+    let inner = &x[1..x.len() - 1];
+    let i = inner.iter().map(|&point| usize::from(point <= at)).sum();
     (i, crate::math::ramp(at, x[i], x[i + 1]))
 }
 

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::frames::{Structural, Vec3};
 use crate::inertia::Inertia;
-use crate::math::{cos, sin};
+use crate::math::sin_cos;
 
 /// What the aircraft weighs.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -56,7 +56,7 @@ pub fn evaluate(params: &Params, fuel_kg: f64, mast_tilt_rad: f64) -> Outputs {
     let arm = params.pivot_m - params.tilting_cg_m;
     let x0 = params.tilting_mass_ratio * arm.x;
     let z0 = params.tilting_mass_ratio * arm.z;
-    let (s, c) = (sin(mast_tilt_rad), cos(mast_tilt_rad));
+    let (s, c) = sin_cos(mast_tilt_rad);
     let aft_m = z0 * s + x0 * (1.0 - c);
     let up_m = z0 * (1.0 - c) - x0 * s;
     let tilted = mast_tilt_rad / crate::math::FRAC_PI_2;

@@ -1,11 +1,10 @@
-//! Opening a log.
+//! Opening a log: which records it has, whatever its form.
 
 use std::path::Path;
 
 use crate::LogError;
 use crate::compact::{AircraftOf, Expander};
 use crate::container::{LogFile, RecordSource};
-use crate::reader::FlightReader;
 
 /// How a log is opened.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,23 +13,10 @@ pub struct OpenOptions {
     /// [`LogError::Compacted`].
     pub aircraft_of: Option<AircraftOf>,
     /// Whether a log of another version of the flight model is opened. Its messages become today's
-    /// structs by the names of their fields; [`FlightReader::differences`] says which ones did not. The
+    /// structs by the names of their fields; [`differences`](crate::FlightReader::differences) says which ones did not. The
     /// states of a compacted one are then not those that were flown, but where
-    /// [`FlightReader::is_recorded`].
+    /// [`is_recorded`](crate::FlightReader::is_recorded).
     pub across_versions: bool,
-}
-
-/// Opens a log and reads up to the state at the start.
-///
-/// # Errors
-/// When the file cannot be read, is not MCAP, is not a flight of ours, or is none that the options
-/// let in.
-pub fn open(path: &Path, options: OpenOptions) -> Result<FlightReader, LogError> {
-    let reader = FlightReader::over(source(path, options)?)?;
-    if !options.across_versions {
-        reader.identity.refuse_other_versions()?;
-    }
-    Ok(reader)
 }
 
 /// The records of a log, whatever its form.
@@ -39,8 +25,6 @@ pub(crate) fn source(path: &Path, options: OpenOptions) -> Result<Box<dyn Record
     match (Expander::is_compacted(path)?, options.aircraft_of) {
         (false, _) => Ok(Box::new(file)),
         (true, None) => Err(LogError::Compacted),
-        (true, Some(aircraft_of)) => {
-            Ok(Box::new(Expander::new(file, aircraft_of, options.across_versions)))
-        }
+        (true, Some(of)) => Ok(Box::new(Expander::new(file, of, options.across_versions))),
     }
 }

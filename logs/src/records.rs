@@ -1,10 +1,12 @@
 //! What is recorded, and on which channel.
 
+use engine::State;
 use engine::inputs::World;
-use engine::{STEP_NS, State};
 use serde::{Deserialize, Serialize};
 
 use crate::level::Level;
+
+pub use crate::container::time_ns;
 
 /// Version of the log's format: its records, channels and seals. The fields of a message are not part
 /// of it; each log names its own.
@@ -179,11 +181,6 @@ impl Happening {
     pub fn from_u64(kind: u64) -> Option<Self> {
         Self::ALL.iter().copied().find(|&known| known as u64 == kind)
     }
-}
-
-/// Log time of a tick's state, ns since the start of the flight.
-pub fn time_ns(tick: u64) -> u64 {
-    tick.saturating_mul(STEP_NS)
 }
 
 /// The digest that starts a chain: everything the flight is reflown from. Who flew it, and when, is

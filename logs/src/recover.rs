@@ -7,8 +7,8 @@ use std::path::Path;
 
 use crate::LogError;
 use crate::channels::{Chain, Channel};
-use crate::open::{OpenOptions, open};
-use crate::reader::{Ending, FlightReader, Messages};
+use crate::open::OpenOptions;
+use crate::reader::{Ending, FlightReader, Messages, open};
 use crate::records::{STATE, time_ns};
 use crate::setup::Identity;
 use crate::writer::FlightWriter;
@@ -152,8 +152,5 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
 /// The name of the file; for one that was recovered before, the names of all of them.
 fn name_of(path: &Path, reader: &FlightReader) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    match reader.recovered_from() {
-        Some(earlier) => format!("{name}, from {earlier}"),
-        None => name,
-    }
+    reader.recovered_from().map_or(name.clone(), |earlier| format!("{name}, from {earlier}"))
 }

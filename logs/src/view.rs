@@ -215,7 +215,7 @@ pub fn text(message: &[u8]) -> Result<String, LogError> {
 }
 
 fn stamp(tick: u64) -> Time {
-    let ns = crate::records::time_ns(tick);
+    let ns = crate::container::time_ns(tick);
     Time {
         sec: i32::try_from(ns / 1_000_000_000).unwrap_or(i32::MAX),
         nanosec: (ns % 1_000_000_000) as u32,

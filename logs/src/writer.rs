@@ -14,11 +14,11 @@ use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
 use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
-use crate::container::RECORD_BYTES_MAX;
 use crate::container::checksums::{RollCall, seal};
+use crate::container::{RECORD_BYTES_MAX, create, stamped};
 use crate::reader::Message;
 use crate::records::{
-    Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest, time_ns,
+    Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest,
 };
 use crate::schema::{self, MessageType};
 use crate::setup::{
@@ -310,21 +310,4 @@ impl FlightWriter {
         self.roll_call.add(topic, kind.text.as_bytes(), &header, message);
         Ok(())
     }
-}
-
-/// The header of a tick's message. The sequence wraps after half a year of flight.
-pub(crate) fn stamped(channel_id: u16, tick: u64) -> MessageHeader {
-    let log_time = time_ns(tick);
-    MessageHeader { channel_id, sequence: tick as u32, log_time, publish_time: log_time }
-}
-
-/// A file to be written.
-pub(crate) fn create(path: &Path, force: bool) -> Result<File, LogError> {
-    File::options()
-        .write(true)
-        .create(true)
-        .truncate(force)
-        .create_new(!force)
-        .open(path)
-        .map_err(|error| LogError::create(path, error))
 }

@@ -28,6 +28,9 @@ const HOVER_MPS: f64 = 20.0;
 /// Faster than this, a mode is of no interest to a pilot, rad/s.
 const FAST_RADPS: f64 = 12.0;
 
+/// Imaginary parts below this part of an eigenvalue are rounding.
+const ROUNDING_NORM: f64 = 1e-6;
+
 /// A motion of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
@@ -81,7 +84,7 @@ struct Shares {
 pub fn modes(linear: &Linear, airspeed_mps: f64) -> Result<Vec<Mode>, Unsolved> {
     let transposed = linear.a.transpose();
     let mut found: Vec<(Complex, Shares)> = Vec::new();
-    for eigenvalue in linear.eigenvalues()? {
+    for eigenvalue in linear.eigenvalues()?.into_iter().map(without_rounding) {
         // What never moves, and the other one of a pair, is no mode of its own.
         if eigenvalue.magnitude() < 1e-9 || eigenvalue.im < 0.0 {
             continue;
@@ -104,6 +107,13 @@ pub fn modes(linear: &Linear, airspeed_mps: f64) -> Result<Vec<Mode>, Unsolved> 
             state: linear.states[shares.state],
         })
         .collect())
+}
+
+/// A repeated real root comes out as a pair with an imaginary part of about the square root of the
+/// rounding: it swings no more than a root that stands alone.
+fn without_rounding(eigenvalue: Complex) -> Complex {
+    let rounding = eigenvalue.im.abs() < ROUNDING_NORM * eigenvalue.magnitude();
+    if rounding { Complex::new(eigenvalue.re, 0.0) } else { eigenvalue }
 }
 
 impl Shares {
@@ -282,6 +292,17 @@ mod tests {
             "pitch subsidence",
         ];
         assert_eq!(names, expected);
+    }
+
+    /// Rounding may split a double root into a pair: there are two modes, and neither swings.
+    #[test]
+    fn a_repeated_real_root_does_not_swing() {
+        let mut linear = roots([-1.0, -2.0, -3.0, -4.0, -5.0, -6.0, -7.0, -7.0]);
+        linear.a[(6, 7)] = 1e-4;
+        linear.a[(7, 6)] = -1e-13;
+        let found = modes(&linear, 80.0).unwrap();
+        assert_eq!(found.len(), 8);
+        assert!(found.iter().all(|mode| !mode.swings()), "{found:?}");
     }
 
     #[test]

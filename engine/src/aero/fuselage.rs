@@ -17,9 +17,9 @@
 
 use serde::Deserialize;
 
-use super::{ahead, local_flow};
+use super::{LocalFlow, ahead};
 use crate::frames::{Load, Structural, Vec3};
-use crate::math::{FRAC_PI_2, PI, cos, sign, sin, square};
+use crate::math::{FRAC_PI_2, PI, sign, sin_cos, square};
 use crate::motion::Motion;
 use crate::table::Table1;
 
@@ -68,6 +68,8 @@ pub struct Params {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// The flow that the whole aircraft meets.
+    pub flow: LocalFlow,
     /// 0 up … 1 down.
     pub gear_extension_norm: f64,
 }
@@ -104,11 +106,12 @@ fn folded(alpha_rad: f64) -> (f64, f64) {
 
 /// Load of the fuselage.
 pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
-    let flow = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+    let flow = inputs.flow;
     let q = flow.pressure_pa;
     let (alpha, lift_sign) = folded(flow.alpha_rad);
     let (beta, side) = (flow.beta_rad.abs(), sign(flow.beta_rad));
-    let cos2_beta = square(cos(flow.beta_rad));
+    let (sin_beta, cos_beta) = sin_cos(flow.beta_rad);
+    let cos2_beta = square(cos_beta);
 
     let lift_n = q * (lift_sign * params.lift_m2.at(alpha) * cos2_beta + params.lift_correction_m2);
     let sideslip_lift_n = q * (params.lift_by_sideslip_m2.at(beta) + params.lift_offset_m2);
@@ -126,8 +129,7 @@ pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
             + params.pitching_offset_m3);
     let turning = q * side * ahead(flow.alpha_rad);
 
-    let (sin_alpha, cos_alpha) = (sin(flow.alpha_rad), cos(flow.alpha_rad));
-    let (sin_beta, cos_beta) = (sin(flow.beta_rad), cos(flow.beta_rad));
+    let (sin_alpha, cos_alpha) = sin_cos(flow.alpha_rad);
     let back_n = drag_n * cos_beta + side_n * sin_beta;
     let force = Vec3::new(
         lift_n * sin_alpha - back_n * cos_alpha,

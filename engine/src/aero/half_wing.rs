@@ -2,8 +2,10 @@
 
 use serde::Deserialize;
 
+use super::LocalFlow;
 use super::polar::Polar;
 use crate::frames::{Body, Structural, Vec3};
+use crate::mast::TiltedMast;
 use crate::motion::Motion;
 use crate::table::{Table1, Table2};
 
@@ -74,16 +76,16 @@ pub struct Params {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// The flow that the whole aircraft meets.
+    pub flow: LocalFlow,
     /// Mach number.
     pub mach: f64,
     /// α_WFS.
     pub alpha_rad: f64,
     /// K0·v·n: velocity of the half wing through its wake.
     pub wake_mps: Vec3<Body>,
-    /// βm of this side's nacelle.
-    pub mast_tilt_rad: f64,
-    /// n, of this side's thrust.
-    pub thrust_axis: Vec3<Body>,
+    /// This side's mast, with βm and n of its thrust.
+    pub mast: TiltedMast,
     /// v of this side's rotor.
     pub induced_mps: f64,
     /// R.

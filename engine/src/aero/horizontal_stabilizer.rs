@@ -21,7 +21,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::polar::ByMach;
-use super::{in_body_axes, load_at, local_flow};
+use super::{LocalFlow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{atan2, max, min, sqrt, square, wrap_angle};
 use crate::motion::Motion;
@@ -94,6 +94,8 @@ pub struct Rate {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// The flow that the whole aircraft meets.
+    pub flow: LocalFlow,
     /// Mach number.
     pub mach: f64,
     /// α_WFS.
@@ -106,6 +108,8 @@ pub struct Inputs {
     pub flap_rad: f64,
     /// δe.
     pub elevator_rad: f64,
+    /// η.
+    pub pressure_ratio: f64,
 }
 
 impl Params {
@@ -134,15 +138,14 @@ impl Params {
     }
 
     /// η, which the fins share.
-    pub fn pressure_ratio_at(&self, mast_tilt_rad: f64, motion: &Motion) -> f64 {
-        let whole = local_flow(motion.airspeed_mps, motion.density_kg_per_m3);
-        self.pressure_ratio.at(mast_tilt_rad, whole.alpha_rad, whole.speed_mps)
+    pub fn pressure_ratio_at(&self, mast_tilt_rad: f64, flow: &LocalFlow) -> f64 {
+        self.pressure_ratio.at(mast_tilt_rad, flow.alpha_rad, flow.speed_mps)
     }
 }
 
 /// Load of the stabiliser, and the rate of its state.
 pub fn evaluate(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Load) {
-    let whole = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+    let whole = inputs.flow;
     let rate = Rate {
         downwash_radps: (params.downwash(inputs) - state.downwash_rad)
             * max(whole.speed_mps, WAKE_MPS_MIN)
@@ -165,8 +168,7 @@ pub fn evaluate(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Load)
         + params.lift_by_sideslip_per_rad * min(beta, SIDESLIP_RAD_MAX);
     let drag = params.drag_by_mach.at(inputs.mach, with_elevator, params.drag.at(with_elevator));
 
-    let ratio = params.pressure_factor.at(inputs.mast_tilt_rad)
-        * params.pressure_ratio_at(inputs.mast_tilt_rad, &inputs.motion);
+    let ratio = params.pressure_factor.at(inputs.mast_tilt_rad) * inputs.pressure_ratio;
     let pressure_area = 0.5
         * inputs.motion.density_kg_per_m3
         * ratio

@@ -10,7 +10,7 @@ pub mod wake_footprint;
 pub mod wing_pylon;
 
 use crate::frames::{Body, Load, Vec3};
-use crate::math::{FRAC_PI_2, PI, atan2, clamp, cos, sin, sqrt, square};
+use crate::math::{FRAC_PI_2, PI, atan2, clamp, sin_cos, sqrt, square};
 
 /// Least dynamic length, so that a standing aircraft divides by something, m/s.
 const SPEED_MPS_MIN: f64 = 1e-3;
@@ -28,6 +28,14 @@ pub struct LocalFlow {
     pub speed_mps: f64,
 }
 
+impl LocalFlow {
+    /// Image in the plane of symmetry.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self { beta_rad: -self.beta_rad, ..*self }
+    }
+}
+
 /// The flow that meets a component moving with `velocity_mps` through the air.
 pub fn local_flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> LocalFlow {
     let speed_mps = velocity_mps.norm();
@@ -42,7 +50,7 @@ pub fn local_flow(velocity_mps: Vec3<Body>, density_kg_per_m3: f64) -> LocalFlow
 
 /// Lift and drag in body axes; side force along y.
 fn in_body_axes(lift_n: f64, drag_n: f64, side_n: f64, alpha_rad: f64) -> Vec3<Body> {
-    let (s, c) = (sin(alpha_rad), cos(alpha_rad));
+    let (s, c) = sin_cos(alpha_rad);
     Vec3::new(lift_n * s - drag_n * c, side_n, -lift_n * c - drag_n * s)
 }
 
@@ -69,7 +77,7 @@ mod tests {
     #[test]
     fn lift_is_across_and_drag_along_the_flow() {
         let force = in_body_axes(10.0, 1.0, 0.0, 0.1);
-        let along = Vec3::<Body>::new(cos(0.1), 0.0, sin(0.1));
+        let along = Vec3::<Body>::new(crate::math::cos(0.1), 0.0, crate::math::sin(0.1));
         assert!((force.dot(along) + 1.0).abs() < 1e-12);
     }
 }

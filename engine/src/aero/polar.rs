@@ -16,7 +16,7 @@
 
 use serde::Deserialize;
 
-use crate::math::{FRAC_PI_2, clamp, cos, sin};
+use crate::math::{FRAC_PI_2, clamp, cos, sin_cos};
 use crate::table::Table1;
 use crate::units::DEGREE_RAD as DEG;
 
@@ -160,8 +160,9 @@ impl Polar {
     pub fn drag_at(&self, mast_tilt_rad: f64, flap: Flap, mach: f64, alpha_rad: f64) -> f64 {
         let alpha = clamp(alpha_rad, -ALPHA_RAD_MAX, ALPHA_RAD_MAX);
         let cube = |x: f64| (x * x * x).abs();
-        let level = cube(sin(alpha));
-        let across = (cube(cos(mast_tilt_rad - alpha)) - level) / (cube(cos(alpha)) - level);
+        let (sin_alpha, cos_alpha) = sin_cos(alpha);
+        let level = cube(sin_alpha);
+        let across = (cube(cos(mast_tilt_rad - alpha)) - level) / (cube(cos_alpha) - level);
         self.at(1.0 - clamp(across, 0.0, 1.0), flap, mach, alpha_rad)
     }
 

@@ -16,9 +16,9 @@
 
 use serde::Deserialize;
 
-use super::local_flow;
+use super::LocalFlow;
 use crate::frames::{Body, Vec3};
-use crate::math::{PI, cos, max, sin, square};
+use crate::math::{PI, max, sin_cos, square};
 use crate::motion::Motion;
 use crate::pair::Pair;
 use crate::table::{Table2, Table3};
@@ -65,6 +65,8 @@ impl Params {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// The flow that the whole aircraft meets.
+    pub flow: LocalFlow,
     /// Mean βm.
     pub mast_tilt_rad: f64,
     /// Unit vectors of thrust.
@@ -94,7 +96,7 @@ pub struct Outputs {
 
 /// The wake at wing and tail.
 pub fn evaluate(params: &Params, inputs: &Inputs) -> Outputs {
-    let flow = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
+    let flow = inputs.flow;
     let tilt_rad = inputs.mast_tilt_rad;
 
     let tip_mps = max(inputs.rotor_speed_radps, ROTOR_SPEED_RADPS_MIN) * inputs.rotor_radius_m;
@@ -110,7 +112,8 @@ pub fn evaluate(params: &Params, inputs: &Inputs) -> Outputs {
 
     let ratio = params.tail_ratio.at(tilt_rad, flow.alpha_rad, flow.speed_mps)
         * params.sideslip_factor.at(flow.beta_rad.abs(), tilt_rad);
-    let axis = Vec3::new(sin(tilt_rad), 0.0, -cos(tilt_rad));
+    let (sin_tilt, cos_tilt) = sin_cos(tilt_rad);
+    let axis = Vec3::new(sin_tilt, 0.0, -cos_tilt);
     Outputs {
         wing_alpha_rad: flow.alpha_rad - deflection_rad,
         wing_mps: inputs

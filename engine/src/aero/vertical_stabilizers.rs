@@ -20,10 +20,11 @@
 use serde::Deserialize;
 
 use super::polar::{ByMach, Flap};
-use super::{ahead, load_at, local_flow};
+use super::{LocalFlow, ahead, load_at};
 use crate::frames::{Load, Structural, Vec3};
-use crate::math::{atan2, cos, max, ramp, sin, sqrt, square};
+use crate::math::{atan2, max, ramp, sin_cos, sqrt, square};
 use crate::motion::Motion;
+use crate::pair::Pair;
 use crate::table::{Table1, Table2, Table3};
 use crate::units::DEGREE_RAD as DEG;
 
@@ -101,6 +102,8 @@ pub struct Params {
 pub struct Inputs {
     /// How the aircraft moves through the air.
     pub motion: Motion,
+    /// The flow that the whole aircraft meets.
+    pub flow: LocalFlow,
     /// Mach number.
     pub mach: f64,
     /// Mean βm.
@@ -139,12 +142,58 @@ impl Params {
     }
 }
 
+/// What both fins look up alike.
+#[derive(Clone, Copy)]
+struct Common {
+    /// K_V.
+    factor: f64,
+    /// X_Kr.
+    effect: f64,
+}
+
+impl Common {
+    fn new(params: &Params, inputs: &Inputs) -> Self {
+        let sideslip = inputs.flow.beta_rad.abs();
+        let fuselage = params.fuselage_sidewash.at(
+            Flap::new(inputs.flap_rad),
+            inputs.mast_tilt_rad,
+            inputs.flow.alpha_rad,
+            sideslip,
+        );
+        Self {
+            factor: params.rotor_sidewash.at(inputs.flow.speed_mps, sideslip) * fuselage,
+            effect: params.rudder_by_mach.at(inputs.mach),
+        }
+    }
+
+    /// The arguments that lead to it, as bits.
+    fn arguments(inputs: &Inputs) -> [u64; 6] {
+        let LocalFlow { alpha_rad, beta_rad, speed_mps, .. } = inputs.flow;
+        [inputs.mast_tilt_rad, inputs.flap_rad, inputs.mach, alpha_rad, beta_rad.abs(), speed_mps]
+            .map(f64::to_bits)
+    }
+}
+
+/// Loads of both fins, each as of a right one. What is equal for both is looked up once.
+pub fn evaluate_both(params: &Params, inputs: Pair<Inputs>) -> Pair<Load> {
+    let left = Common::new(params, &inputs.left);
+    let alike = Common::arguments(&inputs.left) == Common::arguments(&inputs.right);
+    let right = if alike { left } else { Common::new(params, &inputs.right) };
+    Pair { left: load(params, &inputs.left, left), right: load(params, &inputs.right, right) }
+}
+
 /// Load of the right fin.
 pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
+    load(params, inputs, Common::new(params, inputs))
+}
+
+fn load(params: &Params, inputs: &Inputs, Common { factor, effect }: Common) -> Load {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
     let velocity = inputs.motion.velocity_at(arm);
     let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
-    let forward = ahead(atan2(velocity.z, velocity.x));
+    // Up to 60° it is 1: so much is known without the angle.
+    let straight = velocity.x > 0.0 && velocity.z.abs() < 1.66 * velocity.x;
+    let forward = if straight { 1.0 } else { ahead(atan2(velocity.z, velocity.x)) };
     let along_mps = forward * in_plane_mps;
 
     let flow_rad = atan2(velocity.y, along_mps);
@@ -153,23 +202,13 @@ pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
     let roll = inputs.motion.angular_rate_radps.x * params.wing_span_m / (2.0 * speed_mps);
     let beta = flow_rad - direction * params.sidewash_by_roll_rate * roll;
 
-    let whole = local_flow(inputs.motion.airspeed_mps, inputs.motion.density_kg_per_m3);
-    let sideslip = whole.beta_rad.abs();
-    let factor = params.rotor_sidewash.at(whole.speed_mps, sideslip)
-        * params.fuselage_sidewash.at(
-            Flap::new(inputs.flap_rad),
-            inputs.mast_tilt_rad,
-            whole.alpha_rad,
-            sideslip,
-        );
-
-    let effect = params.rudder_by_mach.at(inputs.mach);
     let loss = max(0.0, inputs.rudder_rad.abs() / RUDDER_FULL_RAD - 1.0);
     let slow_fin = params.slow_side_force(beta, 0.0);
     let slow_rudder = params.slow_side_force(beta, inputs.rudder_rad) - slow_fin;
     let fin = params.side_force_by_mach.odd_at(inputs.mach, beta, slow_fin);
     let fast_rudder = params.lift_slope_per_rad * effect * params.rudder_effect * inputs.rudder_rad;
-    let fast = ramp(inputs.mach, 0.2, 0.4) * max(0.0, cos(flow_rad));
+    let (s, c) = sin_cos(flow_rad);
+    let fast = ramp(inputs.mach, 0.2, 0.4) * max(0.0, c);
     let rudder = slow_rudder + fast * (fast_rudder - slow_rudder);
     let side = factor * fin + rudder;
     let with_rudder =
@@ -182,7 +221,6 @@ pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
         * inputs.pressure_ratio
         * (square(along_mps) + square(velocity.y))
         * params.area_m2;
-    let (s, c) = (sin(flow_rad), cos(flow_rad));
     let chordwise_n = pressure_area * (side * s - drag * c);
     // The way the chord lies in the plane of symmetry's flow: ahead, or astern.
     let chord = (if forward < 0.0 { -1.0 } else { 1.0 }) / max(in_plane_mps, 1e-3);

@@ -21,12 +21,13 @@
 
 use super::half_wing::{Inputs, Params};
 use crate::frames::{Body, Structural, Vec3};
-use crate::math::{PI, clamp, cos, exp, max, min, ramp, sin, sqrt, square};
+use crate::lanes::{self, LANES, Lanes};
+use crate::math::{PI, clamp, exp, max, min, sqrt, square};
 
 /// Stations over the chord.
-const CHORDWISE: u32 = 4;
+pub(super) const CHORDWISE: usize = 4;
 /// Stations over the half span.
-const SPANWISE: u32 = 8;
+const SPANWISE: usize = 8;
 /// Half the thickness of the wake's edge, parts of the radius.
 const EDGE_NORM: f64 = 0.05;
 /// f.
@@ -71,9 +72,9 @@ impl Stream {
     }
 
     /// x(p) at `down`, parts of R, where the wake has contracted to `radius`.
-    fn place(&self, p: f64, down: f64, radius: f64) -> f64 {
+    fn place(&self, p: Lanes, down: f64, radius: f64) -> Lanes {
         let slowest_mps = SLOWEST.0 * self.blown_mps + SLOWEST.1;
-        let down_mps = max(self.down_mps + self.gradient_mps * p, slowest_mps);
+        let down_mps = lanes::max(self.down_mps + self.gradient_mps * p, slowest_mps);
         radius * p + down * self.blown_mps / down_mps
     }
 
@@ -90,10 +91,94 @@ impl Stream {
     }
 }
 
+/// Stations of one chordwise place, as the rotor sees them. Lengths are parts of R.
+#[derive(Clone, Copy)]
+pub(super) struct Row {
+    /// Where it is in the drawings.
+    station_m: f64,
+    /// Of the stations, ahead of the hub in the disc's plane.
+    ahead: f64,
+    /// Down the wake: where it is negative no wake passes.
+    down: f64,
+    /// To which the wake has contracted.
+    radius: f64,
+}
+
+/// The rows of a half wing.
+pub(super) fn rows(params: &Params, inputs: &Inputs) -> [Row; CHORDWISE] {
+    let (axis, forward) = axes(inputs);
+    let radius_m = inputs.rotor_radius_m;
+    core::array::from_fn(|i| {
+        let part = 1.0 - (i as f64 + 0.5) / CHORDWISE as f64;
+        let station_m = params.trailing_edge_station_m - params.chord_m * part;
+        let point = Vec3::<Structural>::new(station_m, 0.0, params.centre_m.z);
+        let from_hub = point.from_cg(inputs.motion.cg_m) - inputs.hub_from_cg_m;
+        let down = -from_hub.dot(axis) / radius_m;
+        let radius = if down <= 0.0 { 1.0 } else { 0.707 / sqrt(0.5 * (2.0 - exp(-1.197 * down))) };
+        Row { station_m, ahead: from_hub.dot(forward) / radius_m, down, radius }
+    })
+}
+
+/// Along the mast and forward in the disc's plane, its cant aside.
+fn axes(inputs: &Inputs) -> (Vec3<Body>, Vec3<Body>) {
+    let (s, c) = (inputs.mast.sin_tilt, inputs.mast.cos_tilt);
+    (Vec3::new(s, 0.0, -c), Vec3::new(c, 0.0, s))
+}
+
+/// The wake as it passes a row. Lengths are parts of R.
+struct Passing<'a> {
+    stream: &'a Stream,
+    /// Of the stations, downwind of the hub.
+    x: f64,
+    /// Down the wake.
+    down: f64,
+    /// To which the wake has contracted.
+    radius: f64,
+    /// The p of the least x(p).
+    foremost: f64,
+    /// How far the wake has shifted to the right.
+    aside: f64,
+}
+
+impl Passing<'_> {
+    /// Whether no part of the wake comes near, edge and rounding included.
+    fn is_elsewhere(&self) -> bool {
+        let ends = Lanes::from([self.foremost, -1.0, 0.0, 0.0]);
+        let [foremost, upwind, ..] = self.stream.place(ends, self.down, self.radius).to_array();
+        // The least x(p) is where its slope is 0, or upwind where air that hardly moves is carried
+        // away. No x(p) is greater than the slowest air's with the greatest p.
+        let front = min(foremost, upwind);
+        let rear = upwind + 2.0 * self.radius;
+        let apart = -EDGE_NORM - 1e-9;
+        // Where the shift is no number every station counts: nothing must hide that.
+        (self.x - front < apart || rear - self.x < apart) && self.aside.is_finite()
+    }
+
+    /// How far into the wake the stations are that lie `y` to the right of the hub: 0 out, 1 in.
+    fn covered(&self, y: Lanes) -> Lanes {
+        let place = |p: Lanes| self.stream.place(p, self.down, self.radius);
+        let eta = (y + self.aside) / self.radius;
+        let p = lanes::sqrt(lanes::max(0.0, 1.0 - lanes::square(eta)));
+        let front = place(lanes::clamp(self.foremost.into(), -p, p));
+        let rear = lanes::max(place(p), place(-p));
+        let sideways = self.radius * (1.0 - eta.abs());
+        let within = lanes::min(lanes::min(self.x - front, rear - self.x), sideways);
+        lanes::ramp(within, -EDGE_NORM, EDGE_NORM)
+    }
+}
+
 /// The part of the right half wing in its rotor's wake.
 pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
-    let (s, c) = (sin(inputs.mast_tilt_rad), cos(inputs.mast_tilt_rad));
-    let (axis, forward) = (Vec3::<Body>::new(s, 0.0, -c), Vec3::<Body>::new(c, 0.0, s));
+    footprint_of_rows(params, inputs, &rows(params, inputs))
+}
+
+/// The same; `rows` are those of [`rows()`].
+pub(super) fn footprint_of_rows(
+    params: &Params,
+    inputs: &Inputs,
+    rows: &[Row; CHORDWISE],
+) -> Footprint {
+    let (axis, forward) = axes(inputs);
     let hub = inputs.hub_from_cg_m;
     let velocity = inputs.motion.velocity_at(hub);
     let (along_mps, ahead_mps) = (velocity.dot(axis), velocity.dot(forward));
@@ -101,37 +186,36 @@ pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
     let downwind = if ahead_mps < 0.0 { -1.0 } else { 1.0 };
     let sideways_mps = max(stream.down_mps, 0.1 * velocity.y.abs() + SLOWEST.1);
 
-    let radius_m = inputs.rotor_radius_m;
-    let (chord_m, half_span_m) = (params.chord_m, 0.5 * params.span_m);
-    let (chordwise, spanwise) = (f64::from(CHORDWISE), f64::from(SPANWISE));
+    let (chordwise, spanwise) = (CHORDWISE as f64, SPANWISE as f64);
+    let buttlines_m: [f64; SPANWISE] =
+        core::array::from_fn(|j| 0.5 * params.span_m * (j as f64 + 0.5) / spanwise);
     let (mut part, mut part2, mut station, mut buttline) = (0.0, 0.0, 0.0, 0.0);
-    let mut covered = [0.0; SPANWISE as usize];
-    for i in 0..CHORDWISE {
-        let point = Vec3::<Structural>::new(
-            params.trailing_edge_station_m - chord_m * (1.0 - (f64::from(i) + 0.5) / chordwise),
-            0.0,
-            params.centre_m.z,
-        );
-        let from_hub = point.from_cg(inputs.motion.cg_m) - hub;
-        let down = -from_hub.dot(axis) / radius_m;
+    let mut covered = [0.0; SPANWISE];
+    for &Row { station_m, ahead, down, radius } in rows {
         if down <= 0.0 {
             continue;
         }
-        let x = -downwind * from_hub.dot(forward) / radius_m;
-        let radius = 0.707 / sqrt(0.5 * (2.0 - exp(-1.197 * down)));
-        let foremost = stream.foremost(down, radius);
-        for (j, covered) in (0..SPANWISE).zip(&mut covered) {
-            let y_m = half_span_m * (f64::from(j) + 0.5) / spanwise;
-            let eta = ((y_m - hub.y) / radius_m + down * velocity.y / sideways_mps) / radius;
-            let p = sqrt(max(0.0, 1.0 - square(eta)));
-            let front = stream.place(clamp(foremost, -p, p), down, radius);
-            let rear = max(stream.place(p, down, radius), stream.place(-p, down, radius));
-            let within = min(min(x - front, rear - x), radius * (1.0 - eta.abs()));
-            let weight = ramp(within, -EDGE_NORM, EDGE_NORM) / (chordwise * spanwise);
-            *covered += weight * spanwise;
-            part += weight;
-            station += weight * point.x;
-            buttline += weight * y_m;
+        let passing = Passing {
+            stream: &stream,
+            x: -downwind * ahead,
+            down,
+            radius,
+            foremost: stream.foremost(down, radius),
+            aside: down * velocity.y / sideways_mps,
+        };
+        if passing.is_elsewhere() {
+            continue;
+        }
+        for (j, y_m) in buttlines_m.chunks_exact(LANES).enumerate() {
+            let y = (Lanes::from_fn(|lane| y_m[lane]) - hub.y) / inputs.rotor_radius_m;
+            let weights = passing.covered(y) / (chordwise * spanwise);
+            let covered = &mut covered[j * LANES..];
+            for ((weight, y_m), covered) in weights.to_array().iter().zip(y_m).zip(covered) {
+                *covered += weight * spanwise;
+                part += weight;
+                station += weight * station_m;
+                buttline += weight * y_m;
+            }
         }
     }
     for covered in covered {
@@ -145,6 +229,6 @@ pub fn footprint(params: &Params, inputs: &Inputs) -> Footprint {
     Footprint {
         area_m2: 0.5 * params.area_m2 * part,
         centroid_from_cg_m: centroid.from_cg(inputs.motion.cg_m),
-        chord_m: chord_m * part2 / part,
+        chord_m: params.chord_m * part2 / part,
     }
 }

@@ -29,10 +29,11 @@
 
 pub use super::half_wing::{Inputs, Params};
 use super::polar::Flap;
-use super::wake_footprint::{self, footprint};
-use super::{in_body_axes, load_at, local_flow};
+use super::wake_footprint::{CHORDWISE, Footprint, Row, footprint_of_rows, rows};
+use super::{in_body_axes, load_at};
 use crate::frames::{Body, Load, Vec3};
 use crate::math::{atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
+use crate::pair::Pair;
 use crate::units::DEGREE_RAD as DEG;
 
 /// Flaperons work fully up to here …
@@ -62,16 +63,106 @@ impl Outputs {
     }
 }
 
+/// What both halves have in common while both masts are tilted alike.
+#[derive(Clone, Copy)]
+struct Common {
+    coefficients: Coefficients,
+    rows: [Row; CHORDWISE],
+}
+
+impl Common {
+    fn new(params: &Params, inputs: &Inputs) -> Self {
+        Self { coefficients: Coefficients::new(params, inputs), rows: rows(params, inputs) }
+    }
+
+    /// The arguments that lead to it, as bits.
+    fn arguments(inputs: &Inputs) -> [u64; 11] {
+        let (tilt_rad, hub, cg) = (inputs.mast.tilt_rad, inputs.hub_from_cg_m, inputs.motion.cg_m);
+        let [alpha, flap] = [inputs.alpha_rad, inputs.flap_rad];
+        let radius_m = inputs.rotor_radius_m;
+        [tilt_rad, inputs.mach, alpha, flap, radius_m, hub.x, hub.y, hub.z, cg.x, cg.y, cg.z]
+            .map(f64::to_bits)
+    }
+}
+
+/// Loads of both halves, each as of a right one. What is equal for both is looked up once.
+pub fn evaluate_both(params: &Params, inputs: Pair<Inputs>) -> Pair<Outputs> {
+    let left = Common::new(params, &inputs.left);
+    let alike = Common::arguments(&inputs.left) == Common::arguments(&inputs.right);
+    let right = if alike { left } else { Common::new(params, &inputs.right) };
+    Pair { left: loads(params, &inputs.left, &left), right: loads(params, &inputs.right, &right) }
+}
+
 /// Loads of the right half.
 pub fn evaluate(params: &Params, inputs: &Inputs) -> Outputs {
+    loads(params, inputs, &Common::new(params, inputs))
+}
+
+fn loads(params: &Params, inputs: &Inputs, common: &Common) -> Outputs {
+    let Common { coefficients, rows } = common;
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
-    let footprint = footprint(params, inputs);
+    let footprint = footprint_of_rows(params, inputs, rows);
     let in_wake = InWake::at(inputs, arm);
+    let (immersed_m2, in_wake_pa) = (footprint.area_m2, in_wake.pressure_pa);
     Outputs {
-        free_stream: free_stream(params, inputs, arm, footprint.area_m2, in_wake.pressure_pa),
+        free_stream: free_stream(params, inputs, coefficients, arm, immersed_m2, in_wake_pa),
         immersed: immersed(params, inputs, &footprint),
-        pylon: pylon(params, inputs, in_wake),
+        pylon: pylon(params, inputs, coefficients, in_wake),
         spinner: spinner(params, inputs),
+    }
+}
+
+/// What the tables say of the free stream, this side's flaperon and the aircraft's rates aside.
+#[derive(Clone, Copy)]
+struct Coefficients {
+    /// CL.
+    lift: f64,
+    /// CD.
+    drag: f64,
+    /// Cm.
+    pitching: f64,
+    /// How far the flow is attached: 1 fully, 0 not at all.
+    attached: f64,
+    /// CLδa, fading.
+    lift_loss_per_rad: f64,
+    /// Clβ.
+    rolling_by_sideslip_per_rad: f64,
+    /// K·Clδa.
+    rolling_by_flaperon_per_rad: f64,
+    /// Cnr2·CL² + Cnr0·CD0.
+    yawing_by_yaw_rate: f64,
+    /// K_n0 + K_n·CL·K·Clδa.
+    yawing_by_flaperon_per_rad: f64,
+    /// D_PYINT.
+    interference_m2: f64,
+}
+
+impl Coefficients {
+    fn new(params: &Params, inputs: &Inputs) -> Self {
+        let (tilt, flap_rad) = (inputs.mast.tilt_rad, inputs.flap_rad);
+        let flap = Flap::new(flap_rad);
+        let alpha = wrap_angle(inputs.alpha_rad);
+        let cl = params.lift.lift_at(tilt, flap, inputs.mach, alpha);
+        let attached = 1.0 - ramp(alpha.abs(), ATTACHED_RAD, SEPARATED_RAD);
+        let by_flaperon = params.rolling_by_flaperon_per_rad
+            * params.flaperon_factor.at(tilt, flap_rad)
+            * attached;
+        Self {
+            lift: cl,
+            drag: params.drag.drag_at(tilt, flap, inputs.mach, alpha),
+            pitching: params.pitching_moment.at(tilt, flap_rad),
+            attached,
+            lift_loss_per_rad: params.lift_loss_by_flaperon_per_rad.at(flap_rad),
+            rolling_by_sideslip_per_rad: params.rolling_by_sideslip_per_rad.at(tilt, flap_rad)
+                + params.rolling_by_sideslip_and_lift_per_rad.at(tilt, flap_rad) * cl,
+            rolling_by_flaperon_per_rad: by_flaperon,
+            yawing_by_yaw_rate: params.yawing_by_yaw_rate_and_lift2 * square(cl)
+                + params.yawing_by_yaw_rate_and_drag * params.drag_at_no_lift.at(tilt, flap_rad),
+            yawing_by_flaperon_per_rad: params.yawing_by_flaperon_per_rad.at(tilt, flap_rad)
+                * attached
+                + params.yawing_by_flaperon_and_lift.at(tilt, flap_rad) * cl * by_flaperon,
+            interference_m2: params.interference_m2.at(tilt),
+        }
     }
 }
 
@@ -98,6 +189,7 @@ impl InWake {
 fn free_stream(
     params: &Params,
     inputs: &Inputs,
+    of: &Coefficients,
     arm: Vec3<Body>,
     immersed_m2: f64,
     pressure_in_wake_pa: f64,
@@ -106,51 +198,31 @@ fn free_stream(
     let speed_mps = sqrt(square(velocity.x) + square(velocity.z));
     let rho = inputs.motion.density_kg_per_m3;
     let q = 0.5 * rho * square(speed_mps);
-    let (tilt, flap) = (inputs.mast_tilt_rad, Flap::new(inputs.flap_rad));
-    let alpha = wrap_angle(inputs.alpha_rad);
-    let cl = params.lift.lift_at(tilt, flap, inputs.mach, alpha);
-    let cd = params.drag.drag_at(tilt, flap, inputs.mach, alpha);
-    let cm = params.pitching_moment.at(tilt, inputs.flap_rad);
+    let cl = of.lift;
 
     let half_m2 = 0.5 * params.area_m2;
     let free_m2 = half_m2 - immersed_m2;
-    let attached = 1.0 - ramp(alpha.abs(), ATTACHED_RAD, SEPARATED_RAD);
-    let lift_loss = params.lift_loss_by_flaperon_per_rad.at(inputs.flap_rad)
-        * inputs.flaperon_rad.abs()
-        * attached;
+    let lift_loss = of.lift_loss_per_rad * inputs.flaperon_rad.abs() * of.attached;
     let lift_n = q * (free_m2 * cl - half_m2 * lift_loss);
-    let force = in_body_axes(lift_n, q * free_m2 * cd, 0.0, inputs.alpha_rad);
-    let pitching_n_m = q * half_m2 * params.chord_m * cm;
+    let force = in_body_axes(lift_n, q * free_m2 * of.drag, 0.0, inputs.alpha_rad);
+    let pitching_n_m = q * half_m2 * params.chord_m * of.pitching;
 
-    let beta =
-        clamp(local_flow(velocity, rho).beta_rad, -SIDESLIP_RAD_MAX, SIDESLIP_RAD_MAX) * attached;
+    let beta = clamp(inputs.flow.beta_rad, -SIDESLIP_RAD_MAX, SIDESLIP_RAD_MAX) * of.attached;
     // q·p̂ and q·r̂, which stay finite at rest.
-    let rate = 0.25 * rho * speed_mps * params.span_m * attached;
+    let rate = 0.25 * rho * speed_mps * params.span_m * of.attached;
     let (roll, yaw) =
         (rate * inputs.motion.angular_rate_radps.x, rate * inputs.motion.angular_rate_radps.z);
-    let cl2 = square(cl);
-    let by_flaperon = params.rolling_by_flaperon_per_rad
-        * params.flaperon_factor.at(tilt, inputs.flap_rad)
-        * attached;
     let rolling = q
-        * ((params.rolling_by_sideslip_per_rad.at(tilt, inputs.flap_rad)
-            + params.rolling_by_sideslip_and_lift_per_rad.at(tilt, inputs.flap_rad) * cl)
-            * beta
-            - by_flaperon * inputs.flaperon_rad)
+        * (of.rolling_by_sideslip_per_rad * beta
+            - of.rolling_by_flaperon_per_rad * inputs.flaperon_rad)
         + params.rolling_by_roll_rate * roll
         + params.rolling_by_yaw_rate_and_lift * cl * yaw;
-    let yawing = q
-        * (params.yawing_by_sideslip_per_rad + params.yawing_by_sideslip_and_lift2_per_rad * cl2)
-        * beta
+    let by_sideslip = params.yawing_by_sideslip_per_rad
+        + params.yawing_by_sideslip_and_lift2_per_rad * square(cl);
+    let yawing = q * by_sideslip * beta
         + params.yawing_by_roll_rate_and_lift * cl * roll
-        + (params.yawing_by_yaw_rate_and_lift2 * cl2
-            + params.yawing_by_yaw_rate_and_drag
-                * params.drag_at_no_lift.at(tilt, inputs.flap_rad))
-            * yaw
-        - pressure_in_wake_pa
-            * (params.yawing_by_flaperon_per_rad.at(tilt, inputs.flap_rad) * attached
-                + params.yawing_by_flaperon_and_lift.at(tilt, inputs.flap_rad) * cl * by_flaperon)
-            * inputs.flaperon_rad;
+        + of.yawing_by_yaw_rate * yaw
+        - pressure_in_wake_pa * of.yawing_by_flaperon_per_rad * inputs.flaperon_rad;
     let area_span_m3 = half_m2 * params.span_m;
     load_at(force, arm, pitching_n_m).with_moment(Vec3::new(
         rolling * area_span_m3,
@@ -159,17 +231,16 @@ fn free_stream(
     ))
 }
 
-fn immersed(params: &Params, inputs: &Inputs, part: &wake_footprint::Footprint) -> Load {
+fn immersed(params: &Params, inputs: &Inputs, part: &Footprint) -> Load {
     if part.area_m2 <= 0.0 {
         return Load::default();
     }
     let in_wake = InWake::at(inputs, part.centroid_from_cg_m);
-    let velocity = inputs.motion.airspeed_mps;
-    let deflection_rad = atan2(velocity.z, velocity.x) - inputs.alpha_rad;
+    let deflection_rad = inputs.flow.alpha_rad - inputs.alpha_rad;
     let alpha = wrap_angle(in_wake.alpha_rad - deflection_rad);
     let flap = Flap::new(inputs.flap_rad);
-    let cl = params.lift.lift_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
-    let cd = params.drag.drag_at(inputs.mast_tilt_rad, flap, inputs.mach, alpha);
+    let cl = params.lift.lift_at(inputs.mast.tilt_rad, flap, inputs.mach, alpha);
+    let cd = params.drag.drag_at(inputs.mast.tilt_rad, flap, inputs.mach, alpha);
     let pressure_area = in_wake.pressure_pa * part.area_m2;
     let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, alpha);
     let ahead_m = 0.25 * part.chord_m * cos(alpha);
@@ -178,11 +249,11 @@ fn immersed(params: &Params, inputs: &Inputs, part: &wake_footprint::Footprint) 
 
 /// Velocity of the hub through the air, its own rotor's included.
 fn hub_velocity(inputs: &Inputs) -> Vec3<Body> {
-    inputs.motion.velocity_at(inputs.hub_from_cg_m) + inputs.thrust_axis * inputs.induced_mps
+    inputs.motion.velocity_at(inputs.hub_from_cg_m) + inputs.mast.thrust_axis * inputs.induced_mps
 }
 
-fn pylon(params: &Params, inputs: &Inputs, in_wake: InWake) -> Load {
-    let drag_n = 0.5 * params.interference_m2.at(inputs.mast_tilt_rad) * in_wake.pressure_pa;
+fn pylon(params: &Params, inputs: &Inputs, of: &Coefficients, in_wake: InWake) -> Load {
+    let drag_n = 0.5 * of.interference_m2 * in_wake.pressure_pa;
     let interference = in_body_axes(0.0, drag_n, 0.0, in_wake.alpha_rad);
     let velocity = hub_velocity(inputs);
     let sideways_mps = inputs.motion.velocity_at(inputs.hub_from_cg_m).y;
@@ -196,7 +267,7 @@ fn pylon(params: &Params, inputs: &Inputs, in_wake: InWake) -> Load {
 fn spinner(params: &Params, inputs: &Inputs) -> Load {
     let velocity = hub_velocity(inputs);
     let speed_mps = max(velocity.norm(), 1e-3);
-    let cos_mast = velocity.dot(inputs.thrust_axis) / speed_mps;
+    let cos_mast = velocity.dot(inputs.mast.thrust_axis) / speed_mps;
     let sin_mast = sqrt(max(0.0, 1.0 - square(cos_mast)));
     let area_m2 = params.spinner_m2 + params.spinner_across_m2 * sin_mast * square(sin_mast);
     let force = along(velocity, inputs.motion.density_kg_per_m3, area_m2);

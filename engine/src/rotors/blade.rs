@@ -12,7 +12,8 @@
 use serde::Deserialize;
 
 use super::section::{self, REGIONS, Region};
-use crate::math::{clamp, cos, sin};
+use crate::lanes::{self, LANES, Lanes};
+use crate::math::{sin_cos, tan};
 use crate::table::Table1;
 
 /// Elements along a blade.
@@ -85,10 +86,42 @@ pub struct Station {
     pub cos_twist: f64,
 }
 
-impl Station {
-    /// Part of its area that lifts when lift ends at this part of the radius.
-    pub fn lifting(&self, tip_norm: f64) -> f64 {
-        clamp((tip_norm - self.inner_norm) / self.width_norm, 0.0, 1.0)
+/// Neighbouring elements, each in its lane: what the inflow needs of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    /// r.
+    pub radius_m: Lanes,
+    /// c.
+    pub chord_m: Lanes,
+    /// Where the regions begin, of the radius.
+    pub inner_norm: Lanes,
+    /// How wide those are.
+    pub width_norm: Lanes,
+    /// Sines of the twist.
+    pub sin_twist: Lanes,
+    /// Cosines of the twist.
+    pub cos_twist: Lanes,
+    /// α0.
+    pub zero_lift_rad: Lanes,
+}
+
+impl Group {
+    fn new(stations: &[Station], regions: &[Region]) -> Self {
+        let of = |f: fn(&Station) -> f64| Lanes::from_fn(|lane| f(&stations[lane]));
+        Self {
+            radius_m: of(|station| station.radius_m),
+            chord_m: of(|station| station.chord_m),
+            inner_norm: of(|station| station.inner_norm),
+            width_norm: of(|station| station.width_norm),
+            sin_twist: of(|station| station.sin_twist),
+            cos_twist: of(|station| station.cos_twist),
+            zero_lift_rad: Lanes::from_fn(|lane| regions[stations[lane].region].zero_lift_rad),
+        }
+    }
+
+    /// Parts of their areas that lift when lift ends at this part of the radius.
+    pub fn lifting(&self, tip_norm: f64) -> Lanes {
+        lanes::clamp((tip_norm - self.inner_norm) / self.width_norm, 0.0, 1.0)
     }
 }
 
@@ -99,10 +132,14 @@ pub struct Blade {
     pub stations: [Station; STATIONS],
     /// Sections, from the root.
     pub regions: [Region; REGIONS],
+    /// tan δ3.
+    pub tan_delta3: f64,
+    /// The elements in lanes, from the root.
+    pub(crate) groups: [Group; STATIONS / LANES],
 }
 
-/// The blade of a rotor of that radius.
-pub fn blade(params: &Params, radius_m: f64) -> Blade {
+/// The blade of a rotor of that radius, hinged under that angle.
+pub fn blade(params: &Params, radius_m: f64, delta3_rad: f64) -> Blade {
     let ends = &params.section.lift_coefficient.x;
     let stations = NODES.map(|(region, at, weight)| {
         let inner = if region > 0 { ends[region - 1] } else { params.root_norm };
@@ -110,7 +147,7 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade {
         let x = inner + 0.5 * width * (1.0 + at);
         let weight_norm = 0.5 * width * weight;
         let chord_m = params.blade_chord_m.at(x);
-        let twist_rad = params.twist_rad.at(x);
+        let (sin_twist, cos_twist) = sin_cos(params.twist_rad.at(x));
         Station {
             region,
             radius_m: x * radius_m,
@@ -120,9 +157,11 @@ pub fn blade(params: &Params, radius_m: f64) -> Blade {
             inner_norm: inner,
             width_norm: width,
             disc_norm: 2.0 * x * weight_norm,
-            sin_twist: sin(twist_rad),
-            cos_twist: cos(twist_rad),
+            sin_twist,
+            cos_twist,
         }
     });
-    Blade { stations, regions: params.section.regions(params.root_norm) }
+    let regions = params.section.regions(params.root_norm);
+    let groups = core::array::from_fn(|group| Group::new(&stations[group * LANES..], &regions));
+    Blade { stations, regions, tan_delta3: tan(delta3_rad), groups }
 }

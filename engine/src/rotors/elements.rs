@@ -22,21 +22,15 @@
 use super::blade::{Blade, STATIONS};
 use super::flapping;
 use super::section::LIFT_SLOPE;
-use crate::math::{cos, min, sin, sqrt, square};
+use crate::lanes::{LANES, Lanes, min, sin_cos, sqrt, square};
 
 /// Azimuths in a turn.
 pub const AZIMUTHS: usize = 8;
 const DIAGONAL: f64 = core::f64::consts::FRAC_1_SQRT_2;
-/// cos ψ, sin ψ.
-const TURN: [(f64, f64); AZIMUTHS] = [
-    (1.0, 0.0),
-    (DIAGONAL, DIAGONAL),
-    (0.0, 1.0),
-    (-DIAGONAL, DIAGONAL),
-    (-1.0, 0.0),
-    (-DIAGONAL, -DIAGONAL),
-    (0.0, -1.0),
-    (DIAGONAL, -DIAGONAL),
+/// cos ψ and sin ψ of the azimuths that are evaluated together.
+const TURN: [[[f64; LANES]; 2]; AZIMUTHS / LANES] = [
+    [[1.0, DIAGONAL, 0.0, -DIAGONAL], [0.0, DIAGONAL, 1.0, DIAGONAL]],
+    [[-1.0, -DIAGONAL, 0.0, DIAGONAL], [0.0, -DIAGONAL, -1.0, -DIAGONAL]],
 ];
 
 /// What all elements have in common.
@@ -114,8 +108,8 @@ pub fn elements(
     induced: &Induced,
 ) -> Sums {
     let mut sums = Sums::default();
-    for (c, s) in TURN {
-        azimuth(blade, flow, pitch, flap, induced, (c, s), &mut sums);
+    for [c, s] in TURN {
+        azimuths(blade, flow, pitch, flap, induced, (c.into(), s.into()), &mut sums);
     }
     let each = 1.0 / AZIMUTHS as f64;
     let half_density = 0.5 * flow.density_kg_per_m3;
@@ -133,18 +127,21 @@ pub fn elements(
     }
 }
 
-/// Adds the elements at one azimuth, without ½ρ.
-fn azimuth(
+/// Adds the elements at a few azimuths, without ½ρ: each azimuth in its lane.
+///
+/// The lanes are added up in the order of the azimuths, so that it is the sum that the azimuths one
+/// after the other would give.
+fn azimuths(
     blade: &Blade,
     flow: &Flow,
     pitch: &Pitch,
     flap: &flapping::State,
     induced: &Induced,
-    (c, s): (f64, f64),
+    (c, s): (Lanes, Lanes),
     sums: &mut Sums,
 ) {
-    let theta = pitch.collective_rad - pitch.right_rad * c - pitch.forward_rad * s;
-    let (sin_theta, cos_theta) = (sin(theta), cos(theta));
+    let (sin_theta, cos_theta) =
+        sin_cos(pitch.collective_rad - pitch.right_rad * c - pitch.forward_rad * s);
     let beta = flap.coning_rad - flap.aft_rad * c - flap.right_rad * s;
     // Flapping stays within the stops and what blades bend: two terms are exact to 1e-4.
     let (sin_beta, cos_beta) = (beta * (1.0 - square(beta) / 6.0), 1.0 - 0.5 * square(beta));
@@ -157,8 +154,10 @@ fn azimuth(
     let through_per_s = beta_radps + induced.aft_per_s * c + induced.right_per_s * s;
     let per_sound = 1.0 / flow.sound_speed_mps;
 
-    let (mut normal, mut tangential, mut radial) = (0.0, 0.0, 0.0);
-    let (mut torque, mut moment, mut damping) = (0.0, 0.0, 0.0);
+    let zero = Lanes::from(0.0);
+    let (mut normal, mut tangential, mut radial) = (zero, zero, zero);
+    let (mut torque, mut moment, mut damping) = (zero, zero, zero);
+    let mut stalled = zero;
     for (i, station) in blade.stations.iter().enumerate() {
         let r = station.radius_m;
         let u_t = flow.omega_radps * r + turning_mps - induced.swirl_mps[i];
@@ -186,17 +185,22 @@ fn azimuth(
         torque += r * f_t;
         moment += r * f_n;
         damping += r * r * scale;
-        if station.region > 0 && section.stalled > 0.3 {
-            sums.stalled_norm += 1.0 / 5.0;
+        if station.region > 0 {
+            stalled += section.stalled.above(0.3).select(1.0, 0.0);
         }
     }
     let outward = radial * along_blade_mps - normal * sin_beta;
-    sums.up_n += normal * cos_beta;
-    sums.forward_n += -outward * c - tangential * s;
-    sums.right_n += outward * s - tangential * c;
-    sums.torque_n_m += torque;
-    sums.flap_n_m += moment;
-    sums.flap_cos_n_m += moment * c;
-    sums.flap_sin_n_m += moment * s;
-    sums.damping_n_m_s += damping;
+    let add = |sum: &mut f64, azimuths: Lanes| azimuths.to_array().iter().for_each(|x| *sum += x);
+    add(&mut sums.up_n, normal * cos_beta);
+    add(&mut sums.forward_n, -outward * c - tangential * s);
+    add(&mut sums.right_n, outward * s - tangential * c);
+    add(&mut sums.torque_n_m, torque);
+    add(&mut sums.flap_n_m, moment);
+    add(&mut sums.flap_cos_n_m, moment * c);
+    add(&mut sums.flap_sin_n_m, moment * s);
+    add(&mut sums.damping_n_m_s, damping);
+    // One by one: a sum of fifths is not a number of them times a fifth.
+    for count in stalled.to_array() {
+        (0..count as u32).for_each(|_| sums.stalled_norm += 1.0 / 5.0);
+    }
 }

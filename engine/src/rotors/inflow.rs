@@ -39,10 +39,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::blade::{Blade, STATIONS};
+use super::blade::{Blade, Group, STATIONS};
 use super::elements::{Flow, Induced};
 use super::section::LIFT_SLOPE;
 use crate::STEP_S;
+use crate::lanes::{self, LANES, Lanes};
 use crate::math::{PI, clamp, max, min, sqrt, square};
 use crate::table::Table1;
 
@@ -234,22 +235,7 @@ pub fn induced(
 ) -> Induced {
     let omega = flow.omega_radps;
     let free_mps = sqrt(square(flow.along_mps) + square(passage.edgewise_mps));
-    let (sin_collective, cos_collective) = collective;
-    let mut annular = [0.0; STATIONS];
-    let mut momentum = 0.0;
-    for (v, station) in annular.iter_mut().zip(&blade.stations) {
-        let r = station.radius_m;
-        let u = sqrt(square(omega * r) + square(flow.along_mps)) + STILL_MPS;
-        let sin_pitch = sin_collective * station.cos_twist + cos_collective * station.sin_twist;
-        let cos_pitch = cos_collective * station.cos_twist - sin_collective * station.sin_twist;
-        let zero_lift = blade.regions[station.region].zero_lift_rad;
-        let sin_alpha = (sin_pitch * omega * r - cos_pitch * flow.along_mps) / u;
-        let pull = blades * station.chord_m * omega * LIFT_SLOPE / (8.0 * PI);
-        let forcing = pull * u * (sin_alpha - zero_lift);
-        let relief = free_mps + (pull * omega * r / u).abs() + STILL_MPS;
-        *v = 2.0 * forcing / (relief + sqrt(square(relief) + 4.0 * forcing.abs()));
-        momentum += station.disc_norm * *v * (free_mps + v.abs());
-    }
+    let (annular, momentum) = annular(blade, flow, free_mps, collective, blades);
     let root = sqrt(square(free_mps) + 4.0 * momentum.abs());
     let mean = 2.0 * momentum / (free_mps + root + STILL_MPS);
     let axial = passage.axial();
@@ -257,19 +243,56 @@ pub fn induced(
     let still = own / (own + square(free_mps) + STILL_MPS);
     let factor = ground * params.induced_power_factor * (1.0 + params.recirculation * still);
     let mean_mps = annular.map(|v| factor * (state.mean_mps + axial * (v - mean)));
-    let mut swirl_mps = [0.0; STATIONS];
-    for ((swirl, v), station) in swirl_mps.iter_mut().zip(mean_mps).zip(&blade.stations) {
-        let (turning, through) = (omega * station.radius_m, flow.along_mps + v);
-        *swirl = v * turning * through / (square(turning) + square(through) + STILL_MPS);
-    }
+    let swirl_mps = by_station(blade, |group, stations| {
+        let v = Lanes::from_fn(|lane| mean_mps[stations + lane]);
+        let (turning, through) = (omega * group.radius_m, flow.along_mps + v);
+        v * turning * through / (lanes::square(turning) + lanes::square(through) + STILL_MPS)
+    });
     let through = flow.along_mps + state.mean_mps;
     let tip_mps = sqrt(square(through) + square(omega * radius_m) + STILL_MPS);
     let lost = BETZ / blades * state.mean_mps.abs() / tip_mps;
     Induced {
         mean_mps,
         swirl_mps,
-        lifting: blade.stations.map(|station| station.lifting(1.0 - lost)),
+        lifting: by_station(blade, |group, _| group.lifting(1.0 - lost)),
         aft_per_s: ground * state.aft_mps / radius_m,
         right_per_s: ground * state.right_mps / radius_m,
     }
+}
+
+/// What `f` makes of the blade's elements in lanes, by station; it is told which the first of them is.
+fn by_station(blade: &Blade, f: impl Fn(&Group, usize) -> Lanes) -> [f64; STATIONS] {
+    let mut stations = [0.0; STATIONS];
+    for (i, (some, group)) in stations.chunks_exact_mut(LANES).zip(&blade.groups).enumerate() {
+        some.copy_from_slice(&f(group, i * LANES).to_array());
+    }
+    stations
+}
+
+/// v_r by station, and the mean of its v_r·(|V| + |v_r|) over the disc.
+fn annular(
+    blade: &Blade,
+    flow: &Flow,
+    free_mps: f64,
+    (sin_collective, cos_collective): (f64, f64),
+    blades: f64,
+) -> ([f64; STATIONS], f64) {
+    let (omega, along_mps) = (flow.omega_radps, flow.along_mps);
+    let annular = by_station(blade, |group, _| {
+        let r = group.radius_m;
+        let u = lanes::sqrt(lanes::square(omega * r) + square(along_mps)) + STILL_MPS;
+        let sin_pitch = sin_collective * group.cos_twist + cos_collective * group.sin_twist;
+        let cos_pitch = cos_collective * group.cos_twist - sin_collective * group.sin_twist;
+        let sin_alpha = (sin_pitch * omega * r - cos_pitch * along_mps) / u;
+        let pull = blades * group.chord_m * omega * LIFT_SLOPE / (8.0 * PI);
+        let forcing = pull * u * (sin_alpha - group.zero_lift_rad);
+        let relief = free_mps + (pull * omega * r / u).abs() + STILL_MPS;
+        2.0 * forcing / (relief + lanes::sqrt(lanes::square(relief) + 4.0 * forcing.abs()))
+    });
+    let momentum = blade
+        .stations
+        .iter()
+        .zip(annular)
+        .fold(0.0, |sum, (station, v)| sum + station.disc_norm * v * (free_mps + v.abs()));
+    (annular, momentum)
 }

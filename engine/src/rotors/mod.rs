@@ -32,7 +32,8 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use crate::frames::{Body, Load, Mast, Rotation, Structural, Vec3};
-use crate::math::{PI, cos, max, sin, square, tan};
+use crate::mast::TiltedMast;
+use crate::math::{PI, max, sin_cos, square};
 use crate::motion::Motion;
 
 /// What a rotor is.
@@ -62,7 +63,7 @@ pub struct Params {
 impl Params {
     /// The blade's elements.
     pub fn blade(&self) -> blade::Blade {
-        blade::blade(&self.blade, self.radius_m)
+        blade::blade(&self.blade, self.radius_m, self.flapping.delta3_rad)
     }
 
     /// A.
@@ -70,19 +71,14 @@ impl Params {
         PI * square(self.radius_m)
     }
 
-    /// Unit vector of the right rotor's thrust.
-    pub fn thrust_axis(&self, mast_tilt_rad: f64) -> Vec3<Body> {
-        let cant_rad = self.mast_cant_rad * cos(mast_tilt_rad);
-        Vec3::new(
-            sin(mast_tilt_rad) * cos(cant_rad),
-            sin(cant_rad),
-            -cos(mast_tilt_rad) * cos(cant_rad),
-        )
+    /// The right mast, tilted.
+    pub fn mast(&self, tilt_rad: f64) -> TiltedMast {
+        TiltedMast::new(tilt_rad, self.mast_cant_rad)
     }
 
     /// Right hub, from the centre of gravity.
-    pub fn hub_from_cg(&self, cg_m: Vec3<Structural>, mast_tilt_rad: f64) -> Vec3<Body> {
-        self.pivot_m.from_cg(cg_m) + self.thrust_axis(mast_tilt_rad) * self.mast_length_m
+    pub fn hub_from_cg(&self, cg_m: Vec3<Structural>, mast: &TiltedMast) -> Vec3<Body> {
+        self.pivot_m.from_cg(cg_m) + mast.thrust_axis * self.mast_length_m
     }
 }
 
@@ -163,12 +159,13 @@ struct Hub {
 
 impl Hub {
     fn new(params: &Params, inputs: &Inputs) -> Self {
-        let axis = params.thrust_axis(inputs.mast_tilt_rad);
-        let forward = Vec3::<Body>::new(cos(inputs.mast_tilt_rad), 0.0, sin(inputs.mast_tilt_rad));
+        let mast = params.mast(inputs.mast_tilt_rad);
+        let axis = mast.thrust_axis;
+        let forward = Vec3::<Body>::new(mast.cos_tilt, 0.0, mast.sin_tilt);
         let body_from_mast: Rotation<Body, Mast> =
             Rotation::from_axes(forward, (-axis).cross(forward), -axis);
         let mast_from_body = body_from_mast.inverse();
-        let arm_m = params.hub_from_cg(inputs.motion.cg_m, inputs.mast_tilt_rad);
+        let arm_m = params.hub_from_cg(inputs.motion.cg_m, &mast);
         // Tilting forward is a nose-down turn of the nacelle about its pivot.
         let nacelle_rate = Vec3::<Body>::new(0.0, -inputs.mast_tilt_rate_radps, 0.0);
         let velocity =
@@ -202,11 +199,10 @@ pub fn evaluate(
     };
     let flap = &state.flapping;
     let gimbal = flapping::gimbal(&params.flapping, flap);
-    let coupling = tan(params.flapping.delta3_rad);
     let pitch = elements::Pitch {
         collective_rad: inputs.collective_rad,
-        forward_rad: inputs.cyclic_forward_rad - coupling * gimbal.right_rad,
-        right_rad: inputs.cyclic_outboard_rad - coupling * gimbal.aft_rad,
+        forward_rad: inputs.cyclic_forward_rad - blade.tan_delta3 * gimbal.right_rad,
+        right_rad: inputs.cyclic_outboard_rad - blade.tan_delta3 * gimbal.aft_rad,
     };
     let passage = inflow::passage(&state.inflow, &flow);
     let ground = inflow::ground(&params.inflow, &passage, inputs.hub_height_m, params.radius_m);
@@ -216,7 +212,7 @@ pub fn evaluate(
         &passage,
         &flow,
         blade,
-        ((sin(inputs.collective_rad), cos(inputs.collective_rad)), params.blade.count),
+        (sin_cos(inputs.collective_rad), params.blade.count),
         (ground.disc, params.radius_m),
     );
     let sums = elements::elements(blade, &flow, &pitch, flap, &induced);

@@ -20,7 +20,8 @@
 
 use serde::Deserialize;
 
-use crate::math::{clamp, max, min, pow_positive, sqrt, square};
+use crate::lanes::{self, Lanes, clamp, max, min, square, whole};
+use crate::math::{self, pow_positive, sqrt};
 use crate::table::{Table1, Table2};
 
 /// Angles of a table, at most.
@@ -87,15 +88,16 @@ impl Params {
                 let k = j.saturating_sub(first).min(row.len() - 2);
                 row[k] + (j as f64 - (first + k) as f64) * (row[k + 1] - row[k])
             };
-            let mut points = [(0.0, 0.0); ANGLES_MAX];
-            for (j, point) in points.iter_mut().enumerate().take(last + 1) {
-                *point = (lift.z[i][j], drag_at(j));
+            let mut cells = [[0.0; 4]; ANGLES_MAX];
+            for (j, cell) in cells.iter_mut().enumerate().take(last) {
+                let (cl, cd) = (lift.z[i][j], drag_at(j));
+                *cell = [cl, cd, lift.z[i][j + 1] - cl, drag_at(j + 1) - cd];
             }
             let inner = if i > 0 { lift.x[i - 1] } else { root_norm };
             let mach = self.table_tip_mach * 0.5 * (inner + lift.x[i]);
             let zero_lift_rad = lift.y[0] + step * root(&lift.z[i]);
             Region {
-                points,
+                cells,
                 from_rad: lift.y[0],
                 to_rad: lift.y[last],
                 per_step: 1.0 / step,
@@ -104,7 +106,7 @@ impl Params {
                 lift_slope_per_rad: slope(&lift.z[i]) / step,
                 to_stall_rad: lift.y[greatest(&lift.z[i])] - zero_lift_rad,
                 table_mach: mach,
-                table_beta: sqrt(1.0 - square(mach)),
+                table_beta: sqrt(1.0 - math::square(mach)),
                 rise_mach: self.korn_factor - self.thickness_norm.y[i] - DIVERGENCE,
             }
         })
@@ -112,8 +114,8 @@ impl Params {
 
     /// K − 1 at a chord over radius; the correlation knows none beyond a half.
     pub fn delay(&self, chord_over_radius: f64) -> f64 {
-        let k = 1.291 * pow_positive(clamp(chord_over_radius, 1e-3, 0.5), 0.0775);
-        max(pow_positive(k, self.delay_exponent) - 1.0, 0.0)
+        let k = 1.291 * pow_positive(math::clamp(chord_over_radius, 1e-3, 0.5), 0.0775);
+        math::max(pow_positive(k, self.delay_exponent) - 1.0, 0.0)
     }
 
     /// Where among the lift's angles the drag's begin.
@@ -143,8 +145,8 @@ fn greatest(row: &[f64]) -> usize {
 /// The section of one region of the blade.
 #[derive(Clone, Copy, Debug)]
 pub struct Region {
-    /// cl, cd in equal steps of α.
-    points: [(f64, f64); ANGLES_MAX],
+    /// cl and cd where each step of α begins, and how much they grow over it.
+    cells: [[f64; 4]; ANGLES_MAX],
     from_rad: f64,
     to_rad: f64,
     per_step: f64,
@@ -163,15 +165,15 @@ pub struct Region {
     rise_mach: f64,
 }
 
-/// What a section does.
+/// What a section does, by lanes.
 #[derive(Clone, Copy, Debug)]
-pub struct Coefficients {
+pub(crate) struct Coefficients {
     /// cl.
-    pub lift: f64,
+    pub lift: Lanes,
     /// cd.
-    pub drag: f64,
+    pub drag: Lanes,
     /// 0 on the table, 1 on the flat plate.
-    pub stalled: f64,
+    pub stalled: Lanes,
 }
 
 // sin 12°, sin 30°, sin 6°, sin 20°: where the table ends and where the plate begins.
@@ -186,57 +188,67 @@ pub const LIFT_SLOPE: f64 = 5.7;
 
 impl Region {
     /// Coefficients at the angle of attack with this sine and cosine; `delay` is (K − 1)·(Ωr/U)².
-    #[inline]
-    pub fn coefficients(
+    ///
+    /// What most blades meet nowhere most of the time is left out where no lane needs it: there it
+    /// would add zeros.
+    #[inline(always)]
+    pub(crate) fn coefficients(
         &self,
-        (sin_alpha, cos_alpha): (f64, f64),
-        mach: f64,
-        delay: f64,
+        (s, cos_alpha): (Lanes, Lanes),
+        mach: Lanes,
+        delay: Lanes,
     ) -> Coefficients {
-        let s = sin_alpha;
-        let (mut lift, mut drag) = (2.0 * s * cos_alpha, 0.01 + 1.9 * s * s);
-        let mut stalled = 1.0;
-        if cos_alpha > 0.0 && s < DELAY_END && s > -PLATE_BELOW {
-            // The arc sine by its series: to 1e-6 rad where the table ends, 5e-4 where the plate begins.
-            let s2 = s * s;
-            let alpha = s * (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0)));
-            let slope = self.table_beta / sqrt(1.0 - min(square(mach), MACH2_MAX));
-            let lifting = (alpha - self.zero_lift_rad) * slope;
-            let delayed = delay * clamp(lifting, 0.0, self.to_stall_rad);
-            let beyond = if s > 0.0 {
-                (s - delayed * cos_alpha - STALL) * (1.0 / (PLATE - STALL))
-            } else {
-                (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW))
-            };
-            stalled = clamp(beyond, 0.0, 1.0);
-            let (table_lift, table_drag) = self.table(self.zero_lift_rad + lifting - delayed);
-            let fade = min((DELAY_END - s) * (1.0 / (DELAY_END - PLATE)), 1.0);
-            lift = table_lift
-                + stalled * (lift - table_lift)
-                + fade * self.lift_slope_per_rad * delayed;
-            drag = table_drag + stalled * (drag - table_drag);
-        }
-        let rise_mach = self.rise_mach - 0.1 * lift.abs();
-        if mach > rise_mach {
-            drag += max(rise(mach - rise_mach) - rise(self.table_mach - rise_mach), 0.0);
-        }
-        Coefficients { lift, drag, stalled }
-    }
-}
+        // What is not known is the plate's: NaN, too.
+        let known = cos_alpha.above(0.0) & s.below(DELAY_END) & s.above(-PLATE_BELOW);
+        // The arc sine by its series: to 1e-6 rad where the table ends, 5e-4 where the plate begins.
+        let s2 = square(s);
+        let alpha = s * (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0)));
+        let slope = self.table_beta / lanes::sqrt(1.0 - min(square(mach), MACH2_MAX));
+        let lifting = (alpha - self.zero_lift_rad) * slope;
+        let delayed = delay * clamp(lifting, 0.0, self.to_stall_rad);
+        let beyond = s.above(0.0).select(
+            (s - delayed * cos_alpha - STALL) * (1.0 / (PLATE - STALL)),
+            (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW)),
+        );
+        let (table_lift, table_drag) = self.table(self.zero_lift_rad + lifting - delayed);
+        let fade = min((DELAY_END - s) * (1.0 / (DELAY_END - PLATE)), 1.0);
+        let held = fade * self.lift_slope_per_rad * delayed;
 
-impl Region {
+        let mut found =
+            Coefficients { lift: table_lift + held, drag: table_drag, stalled: 0.0.into() };
+        if (!known | beyond.above(0.0)).any() {
+            let (plate_lift, plate_drag) = (2.0 * s * cos_alpha, 0.01 + 1.9 * s * s);
+            let stalled = clamp(beyond, 0.0, 1.0);
+            let lift = table_lift + stalled * (plate_lift - table_lift) + held;
+            let drag = table_drag + stalled * (plate_drag - table_drag);
+            found.lift = known.select(lift, plate_lift);
+            found.drag = known.select(drag, plate_drag);
+            found.stalled = known.select(stalled, 1.0);
+        }
+        let rise_mach = self.rise_mach - 0.1 * found.lift.abs();
+        let rises = mach.above(rise_mach);
+        if rises.any() {
+            let more = rise(mach - rise_mach) - rise(self.table_mach - rise_mach);
+            found.drag = rises.select(found.drag + max(more, 0.0), found.drag);
+        }
+        found
+    }
+
     /// cl and cd: linear between the points and below them, held above.
-    fn table(&self, alpha_rad: f64) -> (f64, f64) {
+    #[inline(always)]
+    fn table(&self, alpha_rad: Lanes) -> (Lanes, Lanes) {
         let steps = (min(alpha_rad, self.to_rad) - self.from_rad) * self.per_step;
-        let cell = clamp(steps, 0.0, self.cell_max) as u32;
-        let at = steps - f64::from(cell);
-        let i = cell as usize % (ANGLES_MAX - 1);
-        let ((l0, d0), (l1, d1)) = (self.points[i], self.points[i + 1]);
-        (l0 + at * (l1 - l0), max(d0 + at * (d1 - d0), 0.0))
+        let (cell, index) = whole(clamp(steps, 0.0, self.cell_max));
+        let at = steps - cell;
+        let cells = index.map(|index| self.cells[index as usize % ANGLES_MAX]);
+        let [cl, cd, more_cl, more_cd] =
+            core::array::from_fn(|part| Lanes::from_fn(|lane| cells[lane][part]));
+        (cl + at * more_cl, max(cd + at * more_cd, 0.0))
     }
 }
 
 /// d; held where the fourth power has no meaning any more.
-fn rise(beyond: f64) -> f64 {
+#[inline(always)]
+fn rise(beyond: Lanes) -> Lanes {
     20.0 * square(square(clamp(beyond, 0.0, 0.3)))
 }

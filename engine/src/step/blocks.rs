@@ -3,10 +3,14 @@
 //! Mass and motion come first; then rotors and drive, landing gear and airframe; then the sum of
 //! their loads, and what it does to the body.
 
-use crate::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
+use crate::aero::{
+    LocalFlow, fuselage, horizontal_stabilizer, local_flow, rotor_wake, vertical_stabilizers,
+    wing_pylon,
+};
 use crate::frames::{Body, Load, Ned, Rotation, Vec3};
 use crate::inputs::World;
 use crate::landing_gear::TyreDeflection;
+use crate::mast::TiltedMast;
 use crate::motion::Motion;
 use crate::outputs::Loads;
 use crate::pair::Pair;
@@ -52,6 +56,7 @@ struct MassAndMotion {
     ned_from_body: Rotation<Ned, Body>,
     balance: weight_balance::Outputs,
     motion: Motion,
+    flow: LocalFlow,
     mach: f64,
     sides: Pair<SideInputs>,
 }
@@ -61,7 +66,8 @@ struct MassAndMotion {
 #[derive(Clone, Copy)]
 struct SideInputs {
     motion: Motion,
-    mast_tilt_rad: f64,
+    flow: LocalFlow,
+    mast: TiltedMast,
     mast_tilt_rate_radps: f64,
     collective_rad: f64,
     cyclic_forward_rad: f64,
@@ -69,8 +75,6 @@ struct SideInputs {
     flaperon_rad: f64,
     /// To the right on the right fin: outboard.
     rudder_outboard_rad: f64,
-    /// Unit vector of the rotor's thrust.
-    thrust_axis: Vec3<Body>,
     hub_from_cg_m: Vec3<Body>,
     /// Hub over the ground.
     hub_height_m: f64,
@@ -157,43 +161,59 @@ fn mass_and_motion(now: Situation<'_>) -> MassAndMotion {
         angular_rate_radps: plant.angular_rate_radps,
         density_kg_per_m3: air.density_kg_per_m3,
     };
+    let flow = local_flow(motion.airspeed_mps, motion.density_kg_per_m3);
+    let masts = masts(aircraft, surfaces.mast_tilt_rad);
+    let left = SideInputs::new(
+        now,
+        (motion.mirrored(), flow.mirrored(), masts.left),
+        &ned_from_body,
+        -1.0,
+        |of| of.left,
+    );
+    let right =
+        SideInputs::new(now, (motion, flow, masts.right), &ned_from_body, 1.0, |of| of.right);
     MassAndMotion {
         ned_from_body,
         balance,
         motion,
+        flow,
         mach: motion.airspeed_mps.norm() / air.sound_speed_mps,
-        sides: Pair {
-            left: SideInputs::new(now, motion.mirrored(), &ned_from_body, -1.0, |of| of.left),
-            right: SideInputs::new(now, motion, &ned_from_body, 1.0, |of| of.right),
-        },
+        sides: Pair { left, right },
     }
 }
 
+/// Both masts, each as a right one: the same one while they are tilted alike.
+fn masts(aircraft: &Aircraft, tilt_rad: Pair<f64>) -> Pair<TiltedMast> {
+    let left = aircraft.rotors.mast(tilt_rad.left);
+    let alike = tilt_rad.left.to_bits() == tilt_rad.right.to_bits();
+    let right = if alike { left } else { aircraft.rotors.mast(tilt_rad.right) };
+    Pair { left, right }
+}
+
 impl SideInputs {
-    /// `motion` is the aircraft's as a right side sees it; `outboard` is 1 where outboard is to the right,
+    /// `motion`, `flow` and `mast` are as a right side has them; `outboard` is 1 where outboard is to the right,
     /// −1 where it is to the left; `own` picks the side's value.
     fn new(
         now: Situation<'_>,
-        motion: Motion,
+        (motion, flow, mast): (Motion, LocalFlow, TiltedMast),
         ned_from_body: &Rotation<Ned, Body>,
         outboard: f64,
         own: fn(Pair<f64>) -> f64,
     ) -> Self {
         let Situation { aircraft, plant, surfaces, world, .. } = now;
-        let mast_tilt_rad = own(surfaces.mast_tilt_rad);
-        let hub_from_cg_m = aircraft.rotors.hub_from_cg(motion.cg_m, mast_tilt_rad);
+        let hub_from_cg_m = aircraft.rotors.hub_from_cg(motion.cg_m, &mast);
         let hub = Vec3::new(hub_from_cg_m.x, outboard * hub_from_cg_m.y, hub_from_cg_m.z);
         let height_above_ground_m = -plant.position_m.z - world.ground_height_m;
         Self {
             motion,
-            mast_tilt_rad,
+            flow,
+            mast,
             mast_tilt_rate_radps: own(surfaces.mast_tilt_rate_radps),
             collective_rad: own(surfaces.collective_rad),
             cyclic_forward_rad: own(surfaces.cyclic_forward_rad),
             cyclic_outboard_rad: own(surfaces.cyclic_outboard_rad),
             flaperon_rad: own(surfaces.flaperon_rad),
             rudder_outboard_rad: outboard * surfaces.rudder_right_rad,
-            thrust_axis: aircraft.rotors.thrust_axis(mast_tilt_rad),
             hub_from_cg_m,
             hub_height_m: height_above_ground_m - (*ned_from_body * hub).z,
         }
@@ -206,7 +226,7 @@ fn rotors_and_drive(now: Situation<'_>, body: &MassAndMotion) -> RotorsAndDrive 
         let inputs = rotors::Inputs {
             motion: side.motion,
             sound_speed_mps: air.sound_speed_mps,
-            mast_tilt_rad: side.mast_tilt_rad,
+            mast_tilt_rad: side.mast.tilt_rad,
             mast_tilt_rate_radps: side.mast_tilt_rate_radps,
             rotor_speed_radps: plant.rotor_speed_radps,
             collective_rad: side.collective_rad,
@@ -232,7 +252,7 @@ fn rotors_and_drive(now: Situation<'_>, body: &MassAndMotion) -> RotorsAndDrive 
     let jets = engines
         .jet_thrust_n
         .zip(body.sides)
-        .map(|(thrust_n, side)| engines::jet(thrust_n, side.thrust_axis, pivot_m, cg_m));
+        .map(|(thrust_n, side)| engines::jet(thrust_n, side.mast.thrust_axis, pivot_m, cg_m));
     RotorsAndDrive { rotors, rotors_next: from_rotors.map(|(next, _)| next), engines, rate, jets }
 }
 
@@ -256,17 +276,21 @@ fn landing_gear(now: Situation<'_>, body: &MassAndMotion) -> Gear {
 fn airframe(now: Situation<'_>, body: &MassAndMotion, rotors: &Pair<rotors::Outputs>) -> Airframe {
     let Situation { aircraft, plant, surfaces, .. } = now;
     let wake = wake(now, body, rotors);
+    let pressure_ratio =
+        aircraft.horizontal_stabilizer.pressure_ratio_at(surfaces.mast_tilt_rad.mean(), &body.flow);
     let (horizontal_stabilizer_rate, horizontal_stabilizer) = horizontal_stabilizer::evaluate(
         &aircraft.horizontal_stabilizer,
         &plant.horizontal_stabilizer,
         &horizontal_stabilizer::Inputs {
             motion: body.motion,
+            flow: body.flow,
             mach: body.mach,
             wing_alpha_rad: wake.wing_alpha_rad,
             wake_mps: wake.tail_mps,
             mast_tilt_rad: surfaces.mast_tilt_rad.mean(),
             flap_rad: surfaces.flap_rad,
             elevator_rad: surfaces.elevator_rad,
+            pressure_ratio,
         },
     );
     Airframe {
@@ -275,12 +299,13 @@ fn airframe(now: Situation<'_>, body: &MassAndMotion, rotors: &Pair<rotors::Outp
             &aircraft.fuselage,
             &fuselage::Inputs {
                 motion: body.motion,
+                flow: body.flow,
                 gear_extension_norm: surfaces.gear_extension_norm,
             },
         ),
         horizontal_stabilizer,
         horizontal_stabilizer_rate,
-        vertical_stabilizers: fins(now, body),
+        vertical_stabilizers: fins(now, body, pressure_ratio),
     }
 }
 
@@ -293,8 +318,9 @@ fn wake(
     let Situation { aircraft, plant, surfaces, .. } = now;
     let inputs = rotor_wake::Inputs {
         motion: body.motion,
+        flow: body.flow,
         mast_tilt_rad: surfaces.mast_tilt_rad.mean(),
-        thrust_axes: body.sides.map(|side| side.thrust_axis),
+        thrust_axes: body.sides.map(|side| side.mast.thrust_axis),
         induced_mps: rotors.map(|rotor| rotor.induced_mps),
         rotor_force_n: rotors.map(|rotor| rotor.load.force_n.norm()),
         advance_ratio: rotors.map(|rotor| rotor.advance_ratio),
@@ -312,14 +338,14 @@ fn half_wings(
     wake: &rotor_wake::Outputs,
 ) -> Pair<Load> {
     let Situation { aircraft, surfaces, .. } = now;
-    let half_wing = |side: &SideInputs, rotor: &rotors::Outputs, wake_mps: Vec3<Body>| {
-        let inputs = wing_pylon::Inputs {
+    let inputs =
+        |side: &SideInputs, rotor: &rotors::Outputs, wake_mps: Vec3<Body>| wing_pylon::Inputs {
             motion: side.motion,
+            flow: side.flow,
             mach: body.mach,
             alpha_rad: wake.wing_alpha_rad,
             wake_mps,
-            mast_tilt_rad: side.mast_tilt_rad,
-            thrust_axis: side.thrust_axis,
+            mast: side.mast,
             induced_mps: rotor.induced_mps,
             rotor_radius_m: aircraft.rotors.radius_m,
             pivot_m: aircraft.rotors.pivot_m,
@@ -327,31 +353,26 @@ fn half_wings(
             flap_rad: surfaces.flap_rad,
             flaperon_rad: side.flaperon_rad,
         };
-        wing_pylon::evaluate(&aircraft.wing_pylon, &inputs).total()
+    let inputs = Pair {
+        left: inputs(&body.sides.left, &rotors.left, wake.wing_mps.left),
+        right: inputs(&body.sides.right, &rotors.right, wake.wing_mps.right),
     };
-    Pair {
-        left: half_wing(&body.sides.left, &rotors.left, wake.wing_mps.left),
-        right: half_wing(&body.sides.right, &rotors.right, wake.wing_mps.right),
-    }
+    wing_pylon::evaluate_both(&aircraft.wing_pylon, inputs).map(|half| half.total())
 }
 
 /// Both fins, each as a right one.
-fn fins(now: Situation<'_>, body: &MassAndMotion) -> Pair<Load> {
+fn fins(now: Situation<'_>, body: &MassAndMotion, pressure_ratio: f64) -> Pair<Load> {
     let Situation { aircraft, surfaces, .. } = now;
-    let mast_tilt_rad = surfaces.mast_tilt_rad.mean();
-    let pressure_ratio =
-        aircraft.horizontal_stabilizer.pressure_ratio_at(mast_tilt_rad, &body.motion);
-    body.sides.map(|side| {
-        let inputs = vertical_stabilizers::Inputs {
-            motion: side.motion,
-            mach: body.mach,
-            mast_tilt_rad,
-            flap_rad: surfaces.flap_rad,
-            pressure_ratio,
-            rudder_rad: side.rudder_outboard_rad,
-        };
-        vertical_stabilizers::evaluate(&aircraft.vertical_stabilizers, &inputs)
-    })
+    let inputs = body.sides.map(|side| vertical_stabilizers::Inputs {
+        motion: side.motion,
+        flow: side.flow,
+        mach: body.mach,
+        mast_tilt_rad: surfaces.mast_tilt_rad.mean(),
+        flap_rad: surfaces.flap_rad,
+        pressure_ratio,
+        rudder_rad: side.rudder_outboard_rad,
+    });
+    vertical_stabilizers::evaluate_both(&aircraft.vertical_stabilizers, inputs)
 }
 
 /// Every load on the airframe, both sides as they are.
@@ -377,6 +398,6 @@ fn loads(drive: &RotorsAndDrive, gear: &Gear, airframe: &Airframe) -> Loads {
 /// gives the airframe is in its load.
 fn spin_up(aircraft: &Aircraft, sides: &Pair<SideInputs>, rotor_speed_radps2: f64) -> Vec3<Body> {
     let spin_up = aircraft.rotors.polar_inertia_kg_m2 * rotor_speed_radps2;
-    let right_handed = sides.map(|side| side.thrust_axis * spin_up);
+    let right_handed = sides.map(|side| side.mast.thrust_axis * spin_up);
     Pair { left: right_handed.left.mirrored_axial(), right: right_handed.right }.sum()
 }

@@ -11,8 +11,8 @@ use super::flier::AircraftOf;
 use super::{Copied, Expander};
 use crate::LogError;
 use crate::container::checksums::Fingerprint;
-use crate::container::{LogFile, Record, RecordSource};
-use crate::writer::{CHUNK_BYTES, create};
+use crate::container::{LogFile, Record, RecordSource, create};
+use crate::writer::CHUNK_BYTES;
 
 /// Writes the log that was compacted.
 ///

@@ -15,10 +15,9 @@ use super::flier::{AircraftOf, Flier};
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, Compacted};
 use crate::container::checksums::add_message;
-use crate::container::{LogFile, Record, RecordSource};
+use crate::container::{Index, LogFile, Record, RecordSource, create, stamped};
 use crate::records::{StateRecord, time_ns};
 use crate::setup::{CLOSING, Identity, METADATA};
-use crate::writer::{create, stamped};
 use crate::{LogError, cdr};
 
 /// Compacts a log.
@@ -42,6 +41,9 @@ pub fn compact(
     let mut record = Record::default();
     while from.next(&mut record)? {
         if let (Record::Message(..), None) = (&record, &packing) {
+            // Our writer defines all channels first, other programs when they need them.
+            let later = Index::read(log).map(|index| index.definitions).unwrap_or_default();
+            head.extend(later.into_iter().filter(|new| !head.contains(new)).collect::<Vec<_>>());
             packing = Some(Pack::begin(&head, out, force, keyframe_ticks, aircraft_of)?);
         }
         let Some(pack) = &mut packing else {
@@ -60,7 +62,6 @@ pub fn compact(
             Record::Metadata(record) => tail.push(record.clone()),
             // A file that no flight is opened with.
             Record::Attachment(header, data) => attach(&mut pack.to, header, data)?,
-            // Our writer defines all channels first, other programs when they need them.
             definition => pack.define(definition)?,
         }
     }
@@ -153,22 +154,19 @@ impl Pack {
         Ok(pack)
     }
 
-    /// Takes over a message type or a channel.
+    /// Takes over a message type or a channel, once. Two channels of the same topic could not be told
+    /// apart when they are made again.
     fn define(&mut self, definition: &Record) -> Result<(), LogError> {
-        define(&mut self.to, definition)?;
-        if let Record::Channel(channel) = definition {
-            self.meet(channel)?;
+        if let Record::Channel(Definition { id, topic, .. }) = definition {
+            if self.topics.get(id).is_some_and(|(known, _)| known == topic) {
+                return Ok(());
+            }
+            if *id == ID || self.topics.values().any(|(known, _)| known == topic) {
+                return Err(LogError::Order(format!("two channels for {topic}")));
+            }
+            self.topics.insert(*id, (topic.clone(), Channel::of(topic)));
         }
-        Ok(())
-    }
-
-    /// Adds a channel. Two of the same topic could not be told apart when they are made again.
-    fn meet(&mut self, Definition { id, topic, .. }: &Definition) -> Result<(), LogError> {
-        if *id == ID || self.topics.values().any(|(known, _)| known == topic) {
-            return Err(LogError::Order(format!("two channels for {topic}")));
-        }
-        self.topics.insert(*id, (topic.clone(), Channel::of(topic)));
-        Ok(())
+        define(&mut self.to, definition)
     }
 
     fn message(&mut self, header: MessageHeader, data: &[u8]) -> Result<(), LogError> {

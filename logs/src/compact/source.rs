@@ -12,10 +12,9 @@ use super::flier::{AircraftOf, Flier};
 use super::{HEAD, ID, TAIL, TOPIC};
 use crate::channels::{Channel, Compacted as How, compacted};
 use crate::container::checksums::add_message;
-use crate::container::{Compacted, LogFile, Record, RecordSource, Schema};
+use crate::container::{Compacted, LogFile, Record, RecordSource, Schema, stamped};
 use crate::records::{STATE, StateRecord};
 use crate::setup::{Identity, METADATA};
-use crate::writer::stamped;
 use crate::{LogError, cdr};
 
 /// A compacted log being read.

@@ -219,7 +219,7 @@ impl LogFile {
                 found.push(std::mem::take(record));
             }
         };
-        if let Some(index) = Index::read(path) {
+        if let Some(index) = Index::read(path).filter(|index| index.lists_files) {
             for offset in index.files {
                 file.jump(offset)?;
                 if let Ok(true) = file.read(&mut record) {
@@ -271,6 +271,17 @@ impl RecordSource for LogFile {
     fn seek(&mut self, tick: u64) -> Result<(), LogError> {
         self.jump_before(tick, 0).map(|_| ())
     }
+}
+
+/// A file to be written.
+pub(crate) fn create(path: &Path, force: bool) -> Result<File, LogError> {
+    File::options()
+        .write(true)
+        .create(true)
+        .truncate(force)
+        .create_new(!force)
+        .open(path)
+        .map_err(|error| LogError::create(path, error))
 }
 
 /// Keeps the last bytes, as many as the magic number has.

@@ -3,6 +3,7 @@
 //! The index only says where to look. What is found is checked as everywhere: by the chunk's checksum,
 //! by its tick, and by the digest chain from there on.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
@@ -29,6 +30,8 @@ pub(crate) struct Index {
     pub definitions: Vec<Record>,
     /// Where the metadata and attachments are that a flight is opened with.
     pub files: Vec<u64>,
+    /// Whether it lists all metadata and attachments that there are.
+    pub lists_files: bool,
     /// Where the writer's last word is.
     pub closing: Option<u64>,
 }
@@ -63,11 +66,14 @@ impl Index {
         };
         let mut chunks: Vec<_> = summary.chunk_indexes.iter().map(place).collect();
         chunks.sort_by_key(|chunk| chunk.offset);
-        let schemas = summary.schemas.values().map(|schema| {
+        // In the order of their numbers.
+        let (schemas, channels): (BTreeMap<_, _>, BTreeMap<_, _>) =
+            (summary.schemas.iter().collect(), summary.channels.iter().collect());
+        let schemas = schemas.values().map(|schema| {
             let (name, encoding) = (schema.name.clone(), schema.encoding.clone());
             Record::Schema(Schema { id: schema.id, name, encoding, text: schema.data.to_vec() })
         });
-        let channels = summary.channels.values().map(|channel| {
+        let channels = channels.values().map(|channel| {
             Record::Channel(Channel {
                 id: channel.id,
                 schema_id: channel.schema.as_ref().map_or(0, |schema| schema.id),
@@ -82,8 +88,11 @@ impl Index {
         let files = metadata.chain(attached).filter(|(name, _)| setup::opens_a_flight(name));
         let mut files: Vec<_> = files.map(|(_, offset)| offset).collect();
         files.sort_unstable();
+        let counts = summary.stats.as_ref().map(|s| (s.metadata_count, s.attachment_count));
+        let listed = (summary.metadata_indexes.len(), summary.attachment_indexes.len());
         Self {
             definitions: schemas.chain(channels).collect(),
+            lists_files: counts == Some((listed.0 as u32, listed.1 as u32)),
             closing: closing.map(|(_, offset)| offset),
             chunks,
             files,

@@ -6,9 +6,10 @@ mod file;
 mod index;
 mod record;
 
-pub(crate) use file::LogFile;
+pub(crate) use file::{LogFile, create};
 pub(crate) use index::Index;
-pub(crate) use record::{RECORD_BYTES_MAX, Record, Schema};
+pub use record::time_ns;
+pub(crate) use record::{RECORD_BYTES_MAX, Record, Schema, stamped};
 
 use engine::{Outputs, State};
 

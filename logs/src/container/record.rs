@@ -38,17 +38,14 @@ pub(crate) struct Schema {
 impl Record {
     /// Makes a message of the record, and returns the room for its bytes, empty.
     pub fn message(&mut self, header: MessageHeader) -> &mut Vec<u8> {
-        if !matches!(self, Self::Message(..)) {
-            *self = Self::Message(header, Vec::new());
-        }
-        match self {
-            Self::Message(old, data) => {
-                *old = header;
-                data.clear();
-                data
-            }
-            _ => unreachable!("it was made a message"),
-        }
+        let mut data = match std::mem::take(self) {
+            Self::Message(_, data) => data,
+            _ => Vec::new(),
+        };
+        data.clear();
+        *self = Self::Message(header, data);
+        let Self::Message(_, data) = self else { unreachable!("it was made a message") };
+        data
     }
 
     /// The name of what may stand anywhere in a file: metadata and attachments.
@@ -59,6 +56,17 @@ impl Record {
             _ => None,
         }
     }
+}
+
+/// Log time of a tick's state, ns since the start of the flight.
+pub fn time_ns(tick: u64) -> u64 {
+    tick.saturating_mul(engine::STEP_NS)
+}
+
+/// The header of a tick's message. The sequence wraps after half a year of flight.
+pub(crate) fn stamped(channel_id: u16, tick: u64) -> MessageHeader {
+    let log_time = time_ns(tick);
+    MessageHeader { channel_id, sequence: tick as u32, log_time, publish_time: log_time }
 }
 
 /// A record of its bytes. To be used instead of mcap's own, which (0.26) panics on an attachment whose

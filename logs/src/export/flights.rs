@@ -89,6 +89,7 @@ impl Flight {
         let whole = |number| Cell::Number(Value::U64(number));
         let text = |name: &str, text: String| (Column::text(name), Cell::Text(text.into()));
         let flown = self.ticks - self.first_tick.unwrap_or(self.ticks).min(self.ticks);
+        let flown_s = flown as f64 * STEP_S;
         let ending = match ending {
             Ending::Closed => "closed".into(),
             Ending::Truncated => "never closed".into(),
@@ -97,10 +98,7 @@ impl Flight {
         let mut row = vec![
             text("file", self.file.clone()),
             (Column::number("ticks", Kind::U64), whole(flown)),
-            (
-                Column::number("duration_s", Kind::F64),
-                Cell::Number(Value::F64(flown as f64 * STEP_S)),
-            ),
+            (Column::number("duration_s", Kind::F64), Cell::Number(Value::F64(flown_s))),
             (Column::number("device_events", Kind::U64), whole(self.device_events)),
             text("digest", format!("{:016x}", self.digest)),
             text("ending", ending),

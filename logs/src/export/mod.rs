@@ -130,12 +130,8 @@ pub fn export(
         if message.topic() == STATE && known.is_none() {
             let name = flight.name(messages.facts(), messages.files(), &message.data)?;
             if !force && tables.place("flights", &name).exists() {
-                return Ok(Exported {
-                    flight: name,
-                    rows: BTreeMap::new(),
-                    bytes: 0,
-                    ending: Ending::Closed,
-                });
+                let (rows, ending) = (BTreeMap::new(), Ending::Closed);
+                return Ok(Exported { flight: name, rows, bytes: 0, ending });
             }
             known = Some(name);
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::last_word;
+use super::ending::last_word;
 use crate::container::{Index, LogFile, Record, RecordSource};
 use crate::records::{EVENTS, EventRecord, Happening};
 use crate::setup::CLOSING;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use mcap::records::MessageHeader;
 
-use super::Ending;
+use super::ending::Ending;
 use super::stream::{FileChannel, Stream};
 use crate::LogError;
 use crate::channels::Channel;

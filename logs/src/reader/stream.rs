@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use mcap::records::Channel as Definition;
 
-use super::Ending;
+use super::ending::Ending;
 use crate::channels::{Channel, ChannelId};
 use crate::container::checksums::RollCalls;
 use crate::container::{Record, RecordSource, Schema};
