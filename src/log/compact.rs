@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::compact::{self, Copied};
 use logs::text::{at, size};
 
+use crate::numbers::between;
 use crate::status::Status;
 use crate::whatif::refuse_itself;
 
@@ -24,6 +25,7 @@ pub struct CompactArgs {
     out: Option<PathBuf>,
     /// Seconds between two states that are kept
     #[arg(long, value_name = "SECONDS", default_value_t = KEYFRAMES_S)]
+    #[arg(value_parser = between(STEP_S, 1000.0, "s"), allow_negative_numbers = true)]
     keyframes: f64,
     /// Overwrite an existing file
     #[arg(long)]
@@ -46,9 +48,6 @@ pub struct ExpandArgs {
 /// Compacts.
 pub fn compact(args: &CompactArgs) -> Result<Status> {
     let keyframe_ticks = (args.keyframes / STEP_S).round();
-    if !(1.0..=250_000.0).contains(&keyframe_ticks) {
-        bail!("--keyframes {}: expected {STEP_S} s (one tick) to 1000 s", args.keyframes);
-    }
     let stem = stem(&args.log);
     let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"))?;
     let copied = work(&args.log, &out, args.force, |progress| {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
+use std::sync::Arc;
 
 use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use mcap::{Compression, WriteOptions, Writer};
@@ -14,10 +15,10 @@ use super::files::{attach, define, encode, facts, setup_of};
 use super::flier::{AircraftOf, Flier};
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, Compacted};
-use crate::container::checksums::add_message;
-use crate::container::{Index, LogFile, Record, RecordSource, create, stamped};
+use crate::container::checksums::{RollCalls, add_message};
+use crate::container::{Index, LogFile, Record, RecordSource, Schema, create, stamped};
 use crate::records::{StateRecord, time_ns};
-use crate::setup::{CLOSING, Identity, METADATA};
+use crate::setup::{CLOSING, CLOSING_MESSAGES, Identity, METADATA};
 use crate::{LogError, cdr};
 
 /// Compacts a log.
@@ -51,9 +52,6 @@ pub fn compact(
             continue;
         };
         match &mut record {
-            Record::Message(..) if tail.iter().any(|record| record.name == CLOSING) => {
-                return Err(LogError::Order("messages after the writer's last word".into()));
-            }
             Record::Message(header, data) => {
                 pack.message(*header, data)?;
                 progress(pack.states);
@@ -67,6 +65,17 @@ pub fn compact(
     }
     let mut pack = packing.ok_or_else(|| LogError::NotAFlight("no message in it".into()))?;
     pack.close_last()?;
+    // Other people's tools write metadata while a chunk of messages waits: what comes after the writer's
+    // last word may still be his. It is, when he counted it.
+    if let Some(closing) = tail.iter().find(|record| record.name == CLOSING) {
+        let counted = closing.metadata.get(CLOSING_MESSAGES).map(|text| text.parse().ok());
+        if counted.is_some_and(|counted| !pack.roll_calls.are(counted)) {
+            return Err(LogError::Damaged(
+                "the messages are not those that its writer counted; `tiltrotor verify` says more"
+                    .into(),
+            ));
+        }
+    }
     tail.iter().try_for_each(|record| pack.to.write_metadata(record))?;
     let original = from.fingerprint().cloned().unwrap_or_default();
     let last = [
@@ -87,6 +96,10 @@ struct Pack {
     hash: Xxh3Default,
     /// Topic of each channel, and which of ours it is.
     topics: BTreeMap<u16, (String, Option<&'static Channel>)>,
+    /// Text of each message type, and of each channel's.
+    types: BTreeMap<u16, Arc<[u8]>>,
+    definitions: BTreeMap<u16, Arc<[u8]>>,
+    roll_calls: RollCalls,
     flier: Flier,
     /// A message as it was made again.
     again: Vec<u8>,
@@ -141,6 +154,9 @@ impl Pack {
             to,
             hash: Xxh3Default::new(),
             topics: BTreeMap::new(),
+            types: BTreeMap::new(),
+            definitions: BTreeMap::new(),
+            roll_calls: RollCalls::default(),
             flier: Flier::new(flown),
             again: Vec::new(),
             block: Block::after(0),
@@ -166,11 +182,26 @@ impl Pack {
             }
             self.topics.insert(*id, (topic.clone(), Channel::of(topic)));
         }
+        match definition {
+            Record::Schema(Schema { id, text, .. }) => {
+                self.types.insert(*id, text.as_slice().into());
+            }
+            Record::Channel(channel) => {
+                let text = self.types.get(&channel.schema_id).cloned().unwrap_or_default();
+                self.definitions.insert(channel.id, text);
+            }
+            _ => {}
+        }
         define(&mut self.to, definition)
     }
 
     fn message(&mut self, header: MessageHeader, data: &[u8]) -> Result<(), LogError> {
-        let channel = self.topics.get(&header.channel_id).and_then(|(_, channel)| *channel);
+        let (topic, channel) = self
+            .topics
+            .get(&header.channel_id)
+            .map_or(("", None), |(topic, channel)| (topic.as_str(), *channel));
+        let text = self.definitions.get(&header.channel_id).map_or(&[][..], |text| text);
+        self.roll_calls.add(topic, channel.is_some(), text, &header, data);
         let op = match channel.map(|channel| (channel, channel.compacted)) {
             Some((_, Compacted::Reflown)) => return self.state(header, data),
             Some((channel, Compacted::Rows)) => {
