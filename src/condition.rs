@@ -140,7 +140,7 @@ impl Condition {
         let mut world = target.world;
         world.temperature_offset_k = self.isa_k;
         if let Some(height_ft) = self.height_ft {
-            world.ground_height_m = (self.altitude_ft - height_ft) * FOOT_M;
+            world = world.with_ground((self.altitude_ft - height_ft) * FOOT_M);
         }
         Ok((aircraft, Target { world, ..target }))
     }

@@ -148,6 +148,11 @@ fn info(log: &Path) -> Result<Status> {
             ignored.len()
         );
     }
+    for device in &reader.devices {
+        let name = format!("device {}", device.device);
+        let mapped = if device.mapped == 0 { " (not in the cockpit map)" } else { "" };
+        say!("  {name:<16} {}{mapped}", device.name);
+    }
     for remark in &reader.remarks {
         say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }

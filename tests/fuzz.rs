@@ -410,6 +410,8 @@ fn no_cockpit_map_and_no_device_event_breaks_the_cockpit() {
                 kind: odd(),
                 code: odd(),
                 value: odd().cast_signed(),
+                raw_min: odd().cast_signed(),
+                raw_max: odd().cast_signed(),
             });
             step(&aircraft, &state, &Inputs { events: &events, world: World::default() });
         },

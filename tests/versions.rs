@@ -26,11 +26,12 @@ struct Old {
     end: i32,
 }
 
-const CORPUS: [Old; 4] = [
+const CORPUS: [Old; 5] = [
     Old { name: "model-1-first", model: "1", digest: "f57a7a71ce0a6bcf", end: INCOMPLETE },
     Old { name: "model-1", model: "1", digest: "f0118277a7e1d1ed", end: OK },
     Old { name: "model-2-airframe", model: "2", digest: "85da94d18c1f4929", end: OK },
     Old { name: "model-2", model: "2", digest: "7bceb63849668570", end: OK },
+    Old { name: "model-3", model: "3", digest: "d99fec59f1f81826", end: OK },
 ];
 
 /// Ticks in each.

@@ -218,7 +218,7 @@ fn world_of(chance: &mut Chance) -> World {
         world.turbulence_mps = chance.between(0.0, 3.0) * chance.of(2) as f64;
     }
     if chance.one_in(4) {
-        world.ground_height_m = chance.between(-20.0, 20.0);
+        world = world.with_ground(chance.between(-20.0, 20.0));
         world.failures = Failures::from_bits_retain(chance.of(64));
         world.temperature_offset_k = chance.between(-40.0, 40.0);
     }

@@ -218,7 +218,7 @@ pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
         match EventKind::from_u64(event.kind) {
             Some(EventKind::Axis) => {
                 for binding in device.axis.iter().filter(|axis| axis.code == event.code) {
-                    (binding.control.facts().set)(&mut controls, position(binding, event.value));
+                    (binding.control.facts().set)(&mut controls, position(binding, event));
                 }
             }
             Some(EventKind::Button) => {
@@ -238,15 +238,26 @@ pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
                     set_button(&mut controls, binding.control, false);
                 }
             }
-            Some(EventKind::Connected) | None => {}
+            // Recorded for whoever reads the log.
+            Some(
+                EventKind::Connected
+                | EventKind::Dropped
+                | EventKind::AxisPosition
+                | EventKind::ButtonPosition,
+            )
+            | None => {}
         }
     }
     controls
 }
 
 /// The raw value as a control position: −1..1, or 0..1 for those that start at an end.
-fn position(binding: &AxisBinding, raw: i64) -> f64 {
-    let (low, high) = (binding.raw_min.unwrap_or(-32767), binding.raw_max.unwrap_or(32767));
+///
+/// The ends of travel are those of the map, then those that the device tells, then ±32767.
+fn position(binding: &AxisBinding, event: &DeviceEvent) -> f64 {
+    let (raw, told) = (event.value, event.raw_min < event.raw_max);
+    let low = binding.raw_min.unwrap_or(if told { event.raw_min } else { -32767 });
+    let high = binding.raw_max.unwrap_or(if told { event.raw_max } else { 32767 });
     if low == high {
         return 0.0;
     }
@@ -325,6 +336,10 @@ mod tests {
         }
     }
 
+    fn at(binding: &AxisBinding, value: i64) -> f64 {
+        position(binding, &DeviceEvent { value, ..DeviceEvent::default() })
+    }
+
     fn event(kind: EventKind, code: u64, value: i64) -> DeviceEvent {
         DeviceEvent { kind: kind as u64, code, value, ..DeviceEvent::default() }
     }
@@ -332,11 +347,11 @@ mod tests {
     #[test]
     fn an_axis_reaches_its_ends_and_rests_in_its_dead_zone() {
         let binding = axis(AxisControl::StickAft);
-        for (raw, at) in [(-5, -1.0), (0, -1.0), (95, 0.0), (100, 0.0), (109, 0.0), (200, 1.0)] {
-            assert!((position(&binding, raw) - at).abs() < 1e-15, "{raw}");
+        for (raw, norm) in [(-5, -1.0), (0, -1.0), (95, 0.0), (100, 0.0), (109, 0.0), (200, 1.0)] {
+            assert!((at(&binding, raw) - norm).abs() < 1e-15, "{raw}");
         }
-        let left = position(&binding, 30);
-        let right = position(&binding, 170);
+        let left = at(&binding, 30);
+        let right = at(&binding, 170);
         assert_eq!(left.to_bits(), (-right).to_bits());
     }
 
@@ -349,17 +364,40 @@ mod tests {
             ..axis(AxisControl::StickRight)
         };
         for raw in 0..=32767 {
-            let (left, right) = (position(&binding, -raw), position(&binding, raw));
+            let (left, right) = (at(&binding, -raw), at(&binding, raw));
             assert_eq!((left + right).to_bits(), 0, "{raw}");
         }
+    }
+
+    #[test]
+    fn a_device_that_tells_its_range_has_its_full_travel_unless_the_map_says_otherwise() {
+        let mapped = axis(AxisControl::StickAft);
+        let plain = AxisBinding { raw_min: None, raw_max: None, dead_norm: 0.0, ..mapped.clone() };
+        let told = |binding: &AxisBinding, value: i64| {
+            position(binding, &DeviceEvent { value, raw_max: 1023, ..DeviceEvent::default() })
+        };
+        assert_eq!([told(&plain, 0), told(&plain, 1023)], [-1.0, 1.0]);
+        assert_eq!([told(&mapped, 0), told(&mapped, 200)], [-1.0, 1.0]);
+        assert_eq!([at(&plain, -32767), at(&plain, 32767)], [-1.0, 1.0]);
+    }
+
+    #[test]
+    fn what_is_only_found_out_moves_nothing() {
+        let map = stick(ButtonControl::GearToggle);
+        let found = [
+            event(EventKind::AxisPosition, 1, 200),
+            event(EventKind::ButtonPosition, 2, 1),
+            event(EventKind::Dropped, 0, 3),
+        ];
+        assert_eq!(update(&map, &State::default(), &found), State::default());
     }
 
     #[test]
     fn no_raw_value_is_too_large() {
         let mut binding = axis(AxisControl::StickAft);
         (binding.raw_min, binding.raw_max) = (Some(i64::MIN), Some(i64::MAX));
-        assert_eq!(position(&binding, i64::MIN).to_bits(), f64::to_bits(-1.0));
-        assert_eq!(position(&binding, i64::MAX).to_bits(), f64::to_bits(1.0));
+        assert_eq!(at(&binding, i64::MIN).to_bits(), f64::to_bits(-1.0));
+        assert_eq!(at(&binding, i64::MAX).to_bits(), f64::to_bits(1.0));
     }
 
     #[test]
@@ -376,7 +414,7 @@ mod tests {
 
     #[test]
     fn a_lever_starts_at_its_end() {
-        assert!((position(&axis(AxisControl::Collective), 50) - 0.25).abs() < 1e-15);
+        assert!((at(&axis(AxisControl::Collective), 50) - 0.25).abs() < 1e-15);
     }
 
     #[test]
@@ -432,7 +470,7 @@ mod tests {
             let low_norm = control.facts().travel.low_norm();
             let ends = [(0, low_norm), (200, 1.0), (-50, low_norm), (999, 1.0)];
             for (raw, at_norm) in ends {
-                assert!((position(&binding, raw) - at_norm).abs() < 1e-15, "{control:?} at {raw}");
+                assert!((at(&binding, raw) - at_norm).abs() < 1e-15, "{control:?} at {raw}");
             }
         }
     }

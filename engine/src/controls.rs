@@ -41,6 +41,52 @@ pub struct PilotControls {
     pub rpm_select: u64,
     /// How often the marker was pressed.
     pub markers: u64,
+    /// Controls that wait for the hardware to come to where they are.
+    pub pick_up: PickUp,
+    /// Where the stick and pedals are trimmed to.
+    pub force_trim: ForceTrim,
+}
+
+/// Pick-up: a control stays where the aircraft has it until the hardware crosses that position, so that a
+/// lever that stands elsewhere when a flight begins or a device is replaced does not make it jump.
+///
+/// Reserved in the recorded layout: no control waits yet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PickUp {
+    /// Controls that wait: the bit of each [`AxisControl`](crate::cockpit::AxisControl)'s place.
+    pub waiting: u64,
+    /// Where the hardware stands.
+    pub hardware: AxisPositions,
+}
+
+/// Positions of the axes, in the ranges of [`PilotControls`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AxisPositions {
+    /// −1 full forward … 1 full aft.
+    pub stick_aft_norm: f64,
+    /// −1 full left … 1 full right.
+    pub stick_right_norm: f64,
+    /// 0 down … 1 up.
+    pub collective_norm: f64,
+    /// −1 full left … 1 full right pedal.
+    pub pedal_right_norm: f64,
+    /// Toe brakes, 0 … 1.
+    pub brake_norm: Pair<f64>,
+}
+
+/// Force trim: the positions in which stick and pedals are at rest.
+///
+/// Reserved in the recorded layout: nothing releases or moves them yet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ForceTrim {
+    /// 1 while the release button is pressed.
+    pub released: u64,
+    /// Stick, aft positive.
+    pub stick_aft_norm: f64,
+    /// Stick, right positive.
+    pub stick_right_norm: f64,
+    /// Pedals, right positive.
+    pub pedal_right_norm: f64,
 }
 
 /// What the actuators are asked for.
@@ -68,4 +114,18 @@ pub struct Commands {
     pub lever_norm: f64,
     /// Wheel brakes.
     pub brake_norm: Pair<f64>,
+}
+
+impl Commands {
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let pairs = [self.collective_rad, self.cyclic_forward_rad, self.cyclic_outboard_rad]
+            .into_iter()
+            .chain([self.flaperon_rad, self.brake_norm]);
+        pairs
+            .flat_map(|pair| [pair.left, pair.right])
+            .chain([self.elevator_rad, self.rudder_right_rad, self.flap_rad])
+            .chain([self.nacelle_aft_norm, self.lever_norm])
+            .all(f64::is_finite)
+    }
 }

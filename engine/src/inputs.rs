@@ -4,9 +4,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::controls::Commands;
 use crate::enumeration;
 use crate::frames::{Ned, Vec3};
 use crate::listing::flags;
+use crate::math::clamp;
+use crate::struts::Struts;
 
 /// One raw event of an input device (or of a pilot model or script, which look the same).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,8 +24,13 @@ pub struct DeviceEvent {
     pub kind: u64,
     /// Which axis or button: the kernel's event code.
     pub code: u64,
-    /// Raw value: counts of an axis; 1 pressed, 0 released of a button.
+    /// Raw value: counts of an axis; 1 pressed, 0 released of a button; how many events were lost.
     pub value: i64,
+    /// Raw value at the lower end of the axis, as the device tells it; both ends are 0 where it does not,
+    /// and for all else.
+    pub raw_min: i64,
+    /// Raw value at its upper end.
+    pub raw_max: i64,
 }
 
 /// What is told of an [`EventKind`].
@@ -47,6 +55,13 @@ enumeration! {
         Connected = 3 { key: "connected" }
         /// The device went away.
         Disconnected = 4 { key: "disconnected" }
+        /// The kernel lost events of the device (SYN_DROPPED); what it asks for anew follows.
+        Dropped = 5 { key: "dropped" }
+        /// Where an axis stands, found out without its having moved: when the device appeared, or after
+        /// lost events. It moves no control.
+        AxisPosition = 6 { key: "axis_position" }
+        /// The same of a button.
+        ButtonPosition = 7 { key: "button_position" }
     }
 }
 
@@ -93,6 +108,27 @@ impl Failures {
     pub const ENGINES: Self = Self::ENGINE_LEFT.union(Self::ENGINE_RIGHT);
 }
 
+/// What is told of an [`InputLevel`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InputLevelFacts {
+    /// Its name; never changed.
+    pub key: &'static str,
+    /// What moves the aircraft.
+    pub description: &'static str,
+}
+
+enumeration! {
+    /// At which level the aircraft is controlled from outside.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[repr(u64)]
+    pub enum InputLevel tells InputLevelFacts {
+        /// The pilot's controls, through the flight control computer.
+        Controls = 0 { key: "controls" }
+        /// The actuators, by the commands in the inputs: somebody else's SCAS, governor or autopilot.
+        Actuators = 1 { key: "actuators" }
+    }
+}
+
 /// The world around the aircraft during one tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct World {
@@ -108,8 +144,8 @@ pub struct World {
     pub gust_start_tick: u64,
     /// Intensity of the vertical turbulence, m/s; 0 for still air.
     pub turbulence_mps: f64,
-    /// Ground under the aircraft, above the origin's ground, m.
-    pub ground_height_m: f64,
+    /// Ground under each wheel, above the origin's ground, m.
+    pub ground_height_m: Struts<f64>,
     /// Warmer than the standard atmosphere by, K.
     pub temperature_offset_k: f64,
     /// Sea-level pressure above the standard one by, Pa.
@@ -118,6 +154,10 @@ pub struct World {
     pub failures: Failures,
     /// 1 while the simulation is paused: the tick passes, the aircraft does not.
     pub paused: u64,
+    /// One of [`InputLevel`]; any other number is [`InputLevel::Controls`].
+    pub input_level: u64,
+    /// What the actuators are asked for at [`InputLevel::Actuators`]; not used at the other.
+    pub commands: Commands,
 }
 
 impl World {
@@ -126,14 +166,39 @@ impl World {
         self.failures.intersects(failures)
     }
 
+    /// Level ground of that height under all wheels, m.
+    #[must_use]
+    pub fn with_ground(self, height_m: f64) -> Self {
+        Self { ground_height_m: Struts::all(height_m), ..self }
+    }
+
+    /// Ground under the aircraft: the mean of that under the main wheels, m.
+    pub fn ground_under_aircraft_m(&self) -> f64 {
+        self.ground_height_m.main.mean()
+    }
+
+    /// The commands of somebody else's control computer, when it moves the aircraft, no lever, brake or
+    /// switch beyond its travel. (The actuators keep the rest within their stops.)
+    pub fn outside_commands(&self) -> Option<Commands> {
+        let commands = Commands {
+            nacelle_aft_norm: clamp(self.commands.nacelle_aft_norm, -1.0, 1.0),
+            lever_norm: clamp(self.commands.lever_norm, 0.0, 1.0),
+            brake_norm: self.commands.brake_norm.map(|norm| clamp(norm, 0.0, 1.0)),
+            ..self.commands
+        };
+        (self.input_level == InputLevel::Actuators as u64).then_some(commands)
+    }
+
     /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
-        let (wind, gust) = (self.wind_mps, self.gust_mps);
+        let (wind, gust, ground) = (self.wind_mps, self.gust_mps, self.ground_height_m);
         [wind.x, wind.y, wind.z, gust.x, gust.y, gust.z]
             .into_iter()
             .chain([self.wind_roughness_m, self.gust_s, self.turbulence_mps])
-            .chain([self.ground_height_m, self.temperature_offset_k, self.pressure_offset_pa])
+            .chain([ground.nose, ground.main.left, ground.main.right])
+            .chain([self.temperature_offset_k, self.pressure_offset_pa])
             .all(f64::is_finite)
+            && self.commands.is_finite()
     }
 }
 

@@ -101,8 +101,8 @@ pub struct Inputs {
     pub angular_rate_radps: Vec3<Body>,
     /// Attitude.
     pub ned_from_body: Rotation<Ned, Body>,
-    /// Ground above the origin.
-    pub ground_height_m: f64,
+    /// Ground under each wheel, above the origin.
+    pub ground_height_m: Struts<f64>,
     /// 0 up … 1 down.
     pub extension_norm: f64,
     /// Brake of each main wheel, 0..1.
@@ -128,35 +128,45 @@ pub fn evaluate(
     deflections: &Struts<TyreDeflection>,
     inputs: &Inputs,
 ) -> (Struts<TyreDeflection>, Struts<Leg>) {
-    let leg =
-        |strut: &Strut, tyre_m: Vec3<Structural>, deflection: TyreDeflection, brake_norm: f64| {
-            strut_and_tyre(params, strut, tyre_m, deflection, brake_norm, inputs)
-        };
-    let (nose_deflection, nose) = leg(&params.nose, params.nose.tyre_m, deflections.nose, 0.0);
-    let main = Pair { left: params.main.tyre_m.mirrored(), right: params.main.tyre_m }
-        .zip(deflections.main)
-        .zip(inputs.brake_norm)
-        .map(|((tyre_m, deflection), brake_norm)| {
-            leg(&params.main, tyre_m, deflection, brake_norm)
-        });
+    let ground = inputs.ground_height_m;
+    let wheel = |tyre_m, ground_height_m, brake_norm| Wheel { tyre_m, ground_height_m, brake_norm };
+    let wheels = Struts {
+        nose: wheel(params.nose.tyre_m, ground.nose, 0.0),
+        main: Pair {
+            left: wheel(params.main.tyre_m.mirrored(), ground.main.left, inputs.brake_norm.left),
+            right: wheel(params.main.tyre_m, ground.main.right, inputs.brake_norm.right),
+        },
+    };
+    let (nose_deflection, nose) =
+        strut_and_tyre(params, &params.nose, &wheels.nose, deflections.nose, inputs);
+    let main = wheels.main.zip(deflections.main).map(|(wheel, deflection)| {
+        strut_and_tyre(params, &params.main, &wheel, deflection, inputs)
+    });
     (
         Struts { nose: nose_deflection, main: main.map(|(deflection, _)| deflection) },
         Struts { nose, main: main.map(|(_, leg)| leg) },
     )
 }
 
+/// A wheel on its place.
+struct Wheel {
+    /// Tyre contact point, strut extended.
+    tyre_m: Vec3<Structural>,
+    ground_height_m: f64,
+    brake_norm: f64,
+}
+
 fn strut_and_tyre(
     params: &Params,
     strut: &Strut,
-    tyre_m: Vec3<Structural>,
+    wheel: &Wheel,
     deflection: TyreDeflection,
-    brake_norm: f64,
     inputs: &Inputs,
 ) -> (TyreDeflection, Leg) {
     let raised = Vec3::new(0.0, 0.0, params.retraction_m * (1.0 - inputs.extension_norm));
-    let arm = (tyre_m + raised).from_cg(inputs.cg_m);
+    let arm = (wheel.tyre_m + raised).from_cg(inputs.cg_m);
     let tyre = inputs.position_m + inputs.ned_from_body * arm;
-    let compression_m = tyre.z + inputs.ground_height_m;
+    let compression_m = tyre.z + wheel.ground_height_m;
     if compression_m <= 0.0 {
         return (TyreDeflection::default(), Leg::default());
     }
@@ -170,7 +180,7 @@ fn strut_and_tyre(
     let (north, east) = if level > 1e-6 { (nose.x / level, nose.y / level) } else { (1.0, 0.0) };
     let slip_forward_mps = velocity.x * north + velocity.y * east;
     let slip_right_mps = velocity.y * north - velocity.x * east;
-    let along = strut.rolling_friction + strut.braking_friction * brake_norm;
+    let along = strut.rolling_friction + strut.braking_friction * wheel.brake_norm;
     let (forward_m, forward_n) =
         grip(params, deflection.forward_m, slip_forward_mps, along * push_n);
     let (right_m, right_n) =
@@ -271,7 +281,7 @@ mod tests {
             velocity_mps: Vec3::zero(),
             angular_rate_radps: Vec3::zero(),
             ned_from_body: Attitude::default().ned_from_body(),
-            ground_height_m: 0.0,
+            ground_height_m: Struts::all(0.0),
             extension_norm: 1.0,
             brake_norm: Pair::both(0.0),
         }

@@ -6,7 +6,7 @@ use alloc::string::String;
 use serde::{Deserialize, Serialize};
 
 use crate::aero::horizontal_stabilizer;
-use crate::controls::PilotControls;
+use crate::controls::{AxisPositions, ForceTrim, PickUp, PilotControls};
 use crate::frames::{Attitude, Body, Ned, Vec3};
 use crate::landing_gear::TyreDeflection;
 use crate::pair::Pair;
@@ -172,7 +172,13 @@ numbers! {
     PilotControls {
         stick_aft_norm, stick_right_norm, collective_norm, pedal_right_norm, brake_norm,
         nacelle_aft_norm, flap_detent, gear_down, parking_brake, scas_on, rpm_select, markers,
+        pick_up, force_trim,
     }
+    PickUp { waiting, hardware }
+    AxisPositions {
+        stick_aft_norm, stick_right_norm, collective_norm, pedal_right_norm, brake_norm,
+    }
+    ForceTrim { released, stick_aft_norm, stick_right_norm, pedal_right_norm }
     fcc::State { scas, governor }
     fcc::scas::State {
         mean_aft_m, mean_right_m, mean_pedal_right_m, held_pitch_rad, held_roll_rad,

@@ -54,6 +54,7 @@ fn tick(
     let sensed = sense(state, &air);
     let (fcc, commands) =
         fcc::update(&aircraft.fcc, &state.fcc, &next.cockpit, &sensed, &inputs.world);
+    let commands = inputs.world.outside_commands().unwrap_or(commands);
     if inputs.world.paused != 0 || state.frozen != 0 {
         // What the computer asks for stays to be seen; what it remembers does not move. The rates
         // of the tick before the pause stay too, so that the motion goes on as if there were none.
@@ -95,6 +96,7 @@ pub fn derivatives(aircraft: &Aircraft, state: &State, world: &World) -> (State,
     let (environment, air) = weather(state, world);
     let sensed = sense(state, &air);
     let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
+    let commands = world.outside_commands().unwrap_or(commands);
     let actuators = moved(aircraft, state, &commands);
     let blocks = Blocks::evaluate(aircraft, state, world, &air);
     let plant = advance(&state.plant, &blocks, &blocks.rate);
@@ -109,7 +111,7 @@ fn weather(state: &State, world: &World) -> (environment::State, environment::Ou
         &state.environment,
         &environment::Inputs {
             height_m: plant.origin.height_m - plant.position_m.z,
-            height_above_ground_m: -plant.position_m.z - world.ground_height_m,
+            height_above_ground_m: -plant.position_m.z - world.ground_under_aircraft_m(),
             airspeed_mps: (plant.velocity_mps - world.wind_mps).norm(),
             tick: state.tick,
             world,
@@ -196,7 +198,7 @@ fn above_ground(aircraft: &Aircraft, plant: Plant, world: &World) -> Plant {
     let motion = landing_gear::structural_contact(
         &aircraft.landing_gear,
         RigidMotion { position_m, velocity_mps, angular_rate_radps },
-        world.ground_height_m,
+        world.ground_under_aircraft_m(),
     );
     let RigidMotion { position_m, velocity_mps, angular_rate_radps } = motion;
     Plant { position_m, velocity_mps, angular_rate_radps, ..plant }

@@ -12,3 +12,10 @@ pub struct Struts<T> {
     /// Mains.
     pub main: Pair<T>,
 }
+
+impl<T: Clone> Struts<T> {
+    /// The same for every strut.
+    pub fn all(value: T) -> Self {
+        Self { nose: value.clone(), main: Pair::both(value) }
+    }
+}

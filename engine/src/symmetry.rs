@@ -2,7 +2,7 @@
 //!
 //! A mirrored flight is the mirrored state, to the bit. North–down is the mirror plane of the world.
 
-use crate::controls::PilotControls;
+use crate::controls::{AxisPositions, Commands, ForceTrim, PickUp, PilotControls};
 use crate::frames::Load;
 use crate::inputs::{Failures, World};
 use crate::landing_gear::TyreDeflection;
@@ -38,6 +38,37 @@ impl Mirror for PilotControls {
         Self {
             stick_right_norm: -self.stick_right_norm,
             pedal_right_norm: -self.pedal_right_norm,
+            brake_norm: self.brake_norm.swapped(),
+            pick_up: PickUp { hardware: self.pick_up.hardware.mirrored(), ..self.pick_up },
+            force_trim: ForceTrim {
+                stick_right_norm: -self.force_trim.stick_right_norm,
+                pedal_right_norm: -self.force_trim.pedal_right_norm,
+                ..self.force_trim
+            },
+            ..*self
+        }
+    }
+}
+
+impl Mirror for AxisPositions {
+    fn mirrored(&self) -> Self {
+        Self {
+            stick_right_norm: -self.stick_right_norm,
+            pedal_right_norm: -self.pedal_right_norm,
+            brake_norm: self.brake_norm.swapped(),
+            ..*self
+        }
+    }
+}
+
+impl Mirror for Commands {
+    fn mirrored(&self) -> Self {
+        Self {
+            collective_rad: self.collective_rad.swapped(),
+            cyclic_forward_rad: self.cyclic_forward_rad.swapped(),
+            cyclic_outboard_rad: self.cyclic_outboard_rad.swapped(),
+            flaperon_rad: self.flaperon_rad.swapped(),
+            rudder_right_rad: -self.rudder_right_rad,
             brake_norm: self.brake_norm.swapped(),
             ..*self
         }
@@ -134,7 +165,12 @@ impl Mirror for World {
         Self {
             wind_mps: self.wind_mps.mirrored(),
             gust_mps: self.gust_mps.mirrored(),
+            ground_height_m: Struts {
+                main: self.ground_height_m.main.swapped(),
+                ..self.ground_height_m
+            },
             failures,
+            commands: self.commands.mirrored(),
             ..*self
         }
     }

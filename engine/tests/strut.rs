@@ -42,7 +42,7 @@ fn acceleration_mps2(params: &Params, height_m: f64, down_mps: f64) -> f64 {
         velocity_mps: Vec3::new(0.0, 0.0, down_mps),
         angular_rate_radps: Vec3::zero(),
         ned_from_body: Attitude::default().ned_from_body(),
-        ground_height_m: 0.0,
+        ground_height_m: Struts::all(0.0),
         extension_norm: 1.0,
         brake_norm: Pair::both(0.0),
     };

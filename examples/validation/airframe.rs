@@ -61,7 +61,7 @@ const PRINTED: [Printed; 2] = [
 /// The aircraft held in a printed flight, its collective such that the thrust is the printed one: with
 /// the inflow that follows (for the rotor's loads), and with the printed one (for the airframe's).
 fn held(aircraft: &Aircraft, printed: &Printed) -> (Outputs, Outputs) {
-    let world = World { ground_height_m: GROUND_FAR_BELOW_M, ..World::default() };
+    let world = World::default().with_ground(GROUND_FAR_BELOW_M);
     let mut state = State::default();
     let pitch_rad = atan2(printed.down_ftps, printed.forward_ftps);
     let velocity: Vec3<Body> =

@@ -28,7 +28,7 @@ impl Stand {
 
 /// The right rotor of an aircraft that is held in still air at sea level, far from the ground.
 fn on_stand(aircraft: &Aircraft, tip_mps: f64, collective_deg: f64) -> Stand {
-    let world = World { ground_height_m: GROUND_FAR_BELOW_M, ..World::default() };
+    let world = World::default().with_ground(GROUND_FAR_BELOW_M);
     // On the stand there is no wing, and no other rotor.
     let aircraft = &aircraft.clone().with(|stand| stand.rotors.inflow.recirculation = 0.0);
     let mut state = State::default();
@@ -145,7 +145,7 @@ fn ceiling_ft(aircraft: &Aircraft, weight_lb: f64, in_ground_effect: bool) -> Re
         } else {
             GROUND_FAR_BELOW_M
         };
-        let world = World { ground_height_m, ..World::default() };
+        let world = World::default().with_ground(ground_height_m);
         let gear_down = u64::from(in_ground_effect);
         let target = Target { altitude_m, fuel_kg, gear_down, world, ..Target::default() };
         trim(&aircraft, &target).is_ok()

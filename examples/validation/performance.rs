@@ -177,11 +177,8 @@ pub fn autorotation(aircraft: &Aircraft, book: &mut Book) {
     );
     let aircraft =
         aircraft.clone().with(|a| a.fcc.governor.rotor_speed_radps[0] = 553.0 * RPM_RADPS);
-    let world = World {
-        ground_height_m: GROUND_FAR_BELOW_M,
-        failures: Failures::ENGINES,
-        ..World::default()
-    };
+    let world =
+        World { failures: Failures::ENGINES, ..World::default() }.with_ground(GROUND_FAR_BELOW_M);
     let target = Target {
         mast_tilt_rad: -5.0 / DEG,
         airspeed_mps: 80.0 * KNOT_MPS,

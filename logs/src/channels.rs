@@ -11,9 +11,10 @@ use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
 
 use crate::cdr::append_view;
+use crate::devices;
 use crate::records::{
-    EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord, TIMING,
-    TimingRecord,
+    DEVICES, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
+    TIMING, TimingRecord,
 };
 use crate::schema::{MessageType, Types, numbers};
 use crate::view::{self, Shape};
@@ -134,6 +135,8 @@ channels! {
     Log view::LOG, |_| Ok(view::LOG_TYPE.into()), &[], OnEvent, Outside, Kept;
     /// The aircraft's shape.
     RobotDescription view::ROBOT_DESCRIPTION, |_| Ok(view::STRING_TYPE.into()), &[], Once, Outside, Kept;
+    /// Input devices: which, and what they call themselves.
+    Devices DEVICES, |_| Ok(devices::TYPE.into()), &[], OnEvent, Outside, Kept;
 }
 
 impl From<ChannelId> for &'static Channel {

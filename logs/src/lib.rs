@@ -12,6 +12,7 @@ pub mod channels;
 mod codec;
 pub mod compact;
 mod container;
+pub mod devices;
 mod error;
 pub mod export;
 mod level;

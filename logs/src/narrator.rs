@@ -34,12 +34,19 @@ impl Narrator {
     /// When the file cannot be written.
     pub fn event(&self, writer: &mut FlightWriter, event: &DeviceEvent) -> Result<(), LogError> {
         let Some(kind) = EventKind::from_u64(event.kind) else { return Ok(()) };
-        let what = match kind {
-            EventKind::Connected => Happening::DeviceConnected,
-            EventKind::Disconnected => Happening::DeviceDisconnected,
-            EventKind::Axis | EventKind::Button => return Ok(()),
-        };
         let words = format!("device {} {}", event.device, kind.facts().key);
+        let (what, words) = match kind {
+            EventKind::Connected => (Happening::DeviceConnected, words),
+            EventKind::Disconnected => (Happening::DeviceDisconnected, words),
+            EventKind::Dropped => {
+                let words = format!("device {}: the kernel lost events", event.device);
+                (Happening::EventsLost, words)
+            }
+            EventKind::Axis
+            | EventKind::Button
+            | EventKind::AxisPosition
+            | EventKind::ButtonPosition => return Ok(()),
+        };
         writer.happened(event.tick, what, event.device, &words)
     }
 

@@ -10,9 +10,10 @@ pub use crate::container::time_ns;
 
 /// Version of the log's format: its records, channels and seals. The fields of a message are not part
 /// of it; each log names its own.
-pub const FORMAT_VERSION: &str = "2";
-/// The formats that are read. 1 had no seals, and at first no last word of the writer.
-pub const FORMATS_READ: [&str; 2] = ["1", FORMAT_VERSION];
+pub const FORMAT_VERSION: &str = "3";
+/// The formats that are read. 1 had no seals, and at first no last word of the writer; 2 knew no devices,
+/// and two message types by one name.
+pub const FORMATS_READ: [&str; 3] = ["1", "2", FORMAT_VERSION];
 
 /// Raw device events, one message each, in the order they were applied.
 pub const HARDWARE: &str = "/hardware";
@@ -26,6 +27,8 @@ pub const TIMING: &str = "/timing";
 pub const EVENTS: &str = "/events";
 /// What could be observed, now and then.
 pub const OUTPUTS: &str = "/outputs";
+/// Which input devices there were.
+pub const DEVICES: &str = "/devices";
 
 /// The world during one tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -72,6 +75,12 @@ pub struct TimingRecord {
     pub record_ns: u64,
     /// 1 when the tick ended after the next one was due.
     pub overrun: u64,
+    /// How far the clock was anchored anew before the tick, because it had stood still; 0 as a rule.
+    pub slip_ns: u64,
+    /// Device events of the tick with a time of the kernel's: hardware, not pilot models or scripts.
+    pub stamped_events: u64,
+    /// Those of them whose time cannot be: in the future, or from before the flight.
+    pub implausible_events: u64,
 }
 
 /// Something that happened.
@@ -83,6 +92,8 @@ pub struct EventRecord {
     pub kind: u64,
     /// Which one, how many, or which bits.
     pub value: u64,
+    /// What was measured, as the kind of event says; 0 where it says nothing.
+    pub measured: [f64; 2],
 }
 
 /// How grave an event is in `/log`.
@@ -172,6 +183,14 @@ engine::enumeration! {
         /// The log's writer was held up.
         WriterHeldUp = 11 {
             key: "writer_held_up", value: "for how long, ms", levels: Levels::always(Level::Warn),
+        }
+        /// The clock was anchored anew, because the machine or the program had stood still.
+        Slip = 12 {
+            key: "slip", value: "by how long, ms", levels: Levels::always(Level::Warn),
+        }
+        /// The kernel lost events of a device.
+        EventsLost = 13 {
+            key: "events_lost", value: "the device's number", levels: Levels::always(Level::Warn),
         }
     }
 }

@@ -31,14 +31,14 @@ const BASE: &str = "base_link";
 const TIME: &str = "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
 const HEADER: &str = "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
 
-/// A message type of ROS 2's own.
+/// A message type with strings or lists: of ROS 2's own, or one of ours.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RosType {
     /// With package.
-    name: &'static str,
+    pub(crate) name: &'static str,
     /// Its fields; the types they are of come after it.
-    own: &'static str,
-    parts: &'static [&'static str],
+    pub(crate) own: &'static str,
+    pub(crate) parts: &'static [&'static str],
 }
 
 impl From<RosType> for MessageType {

@@ -16,6 +16,7 @@ use serde::Serialize;
 use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
 use crate::container::checksums::{RollCall, seal};
 use crate::container::{RECORD_BYTES_MAX, create, stamped};
+use crate::devices::DeviceIdentity;
 use crate::reader::Message;
 use crate::records::{
     Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest,
@@ -172,6 +173,15 @@ impl FlightWriter {
         self.record(ChannelId::Timing, timing.tick, timing)
     }
 
+    /// An input device that was found.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn device(&mut self, device: &DeviceIdentity) -> Result<(), LogError> {
+        let message = device.encode()?;
+        self.put(ChannelId::Devices, device.tick, &message)
+    }
+
     /// Something that happened, as a record and in words.
     ///
     /// # Errors
@@ -184,7 +194,7 @@ impl FlightWriter {
         words: &str,
     ) -> Result<(), LogError> {
         let level = what.facts().levels.of(value);
-        let record = EventRecord { tick, kind: what as u64, value };
+        let record = EventRecord { tick, kind: what as u64, value, measured: [0.0; 2] };
         self.record(ChannelId::Events, tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;
         self.put(ChannelId::Log, tick, &message)

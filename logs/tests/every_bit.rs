@@ -14,6 +14,7 @@ use std::thread;
 
 use engine::inputs::{DeviceEvent, EventKind};
 use engine::{Inputs, Outputs, State, step};
+use logs::devices::DeviceIdentity;
 use logs::records::{Happening, InputsRecord, TimingRecord};
 use logs::{Ending, FlightReader, FlightWriter, Identity, LogError, Setup};
 
@@ -77,8 +78,13 @@ fn judged(bytes: Vec<u8>, contents: &mut String) -> Seen {
     let ending = reader.ending().cloned().expect("an end");
     if ticks == TICKS && ending == Ending::Truncated {
         *contents += &format!(
-            "{:?} {:?} {:?} {:?} {:?}",
-            reader.setup, reader.identity, reader.timings, reader.happenings, reader.remarks
+            "{:?} {:?} {:?} {:?} {:?} {:?}",
+            reader.setup,
+            reader.identity,
+            reader.timings,
+            reader.happenings,
+            reader.remarks,
+            reader.devices
         );
     }
     Seen::Exact(ticks, ending)
@@ -106,6 +112,8 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
     let mut writer =
         FlightWriter::create(&path, &setup, &identity, &aircraft, "<robot/>", &state, false)
             .expect("a log");
+    let stick = DeviceIdentity { vendor: 0x44f, name: "a stick".into(), ..Default::default() };
+    writer.device(&stick).expect("written");
     for tick in 0..TICKS {
         let event = DeviceEvent {
             tick,
@@ -114,6 +122,8 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
             kind: EventKind::Axis as u64,
             code: 1,
             value: 77,
+            raw_min: -100,
+            raw_max: 100,
         };
         writer.event(&event).expect("written");
         writer.inputs(&InputsRecord { tick, events: 1, ..Default::default() }).expect("written");

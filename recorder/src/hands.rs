@@ -28,6 +28,7 @@ impl Reach<'_> {
             kind: kind as u64,
             code,
             value,
+            ..DeviceEvent::default()
         });
     }
 }

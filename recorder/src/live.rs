@@ -10,6 +10,8 @@ use std::sync::mpsc;
 use engine::inputs::DeviceEvent;
 use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
 use flightgear::Link;
+#[cfg(feature = "sticks")]
+use logs::devices::DeviceIdentity;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity};
 
@@ -84,7 +86,8 @@ where
         let state = analysis::start::state_at(&flight.start, &aircraft)?;
         let world = flight.start.world.world();
         let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
-        let writer = FlightWriter::create(
+        #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to tell of"))]
+        let mut writer = FlightWriter::create(
             &flight.out,
             &flight.setup,
             &identity,
@@ -93,6 +96,17 @@ where
             &state,
             flight.force,
         )?;
+        #[cfg(feature = "sticks")]
+        for (device, name) in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
+            let (device, name, tick) = (*device, name.clone(), state.tick);
+            writer.device(&DeviceIdentity {
+                tick,
+                device,
+                name,
+                mapped: 1,
+                ..Default::default()
+            })?;
+        }
         let (tell, told) = mpsc::channel();
         let mut recording = Recording::start(writer, &state, told);
         let found = Arc::clone(&progress.mismatches);
@@ -215,6 +229,7 @@ where
         let sent_ns = times.sent_ns - times.woke_ns;
         // Synthetic events have no time of the kernel's.
         let kernel_ns = self.events.iter().map(|event| event.kernel_time_ns).filter(|&ns| ns > 0);
+        let stamped_events = kernel_ns.clone().count() as u64;
         let timing = TimingRecord {
             tick,
             wall_ns: times.wall_ns,
@@ -226,6 +241,9 @@ where
                 .map_or(0, |oldest_ns| (times.wall_ns + sent_ns).saturating_sub(oldest_ns)),
             record_ns: (times.recorded_ns - times.sampled_ns) + (times.handed_ns - times.sent_ns),
             overrun: u64::from(due_ns.is_some_and(|due_ns| times.handed_ns > due_ns + STEP_NS)),
+            slip_ns: 0,
+            stamped_events,
+            implausible_events: 0,
         };
         self.recording.put(ToRecord::Timing(timing));
         self.statistics.add(&timing);

@@ -158,7 +158,8 @@ impl Reader {
 
     fn run(&mut self, stop: &AtomicBool) {
         for number in self.numbers.clone().into_iter().flatten() {
-            self.send(number, SystemTime::now(), EventKind::Connected, 0, 0);
+            let event = DeviceEvent { device: number, ..of_kind(EventKind::Connected) };
+            self.send(event, SystemTime::now());
         }
         while !stop.load(Ordering::Relaxed) {
             // It may come back without an event before the time is up.
@@ -171,26 +172,38 @@ impl Reader {
                 },
             };
             let code = |code: gilrs_core::EvCode| u64::from(code.into_u32() & 0xffff);
-            let (kind, code, value) = match event.event {
+            let button = |button, value| DeviceEvent {
+                code: code(button),
+                value,
+                ..of_kind(EventKind::Button)
+            };
+            let said = match event.event {
                 EventType::AxisValueChanged(value, axis) => {
-                    (EventKind::Axis, code(axis), i64::from(value))
+                    let pad = self.gilrs.gamepad(event.id);
+                    let range = pad.and_then(|pad| pad.axis_info(axis));
+                    DeviceEvent {
+                        code: code(axis),
+                        value: i64::from(value),
+                        raw_min: range.map_or(0, |range| i64::from(range.min)),
+                        raw_max: range.map_or(0, |range| i64::from(range.max)),
+                        ..of_kind(EventKind::Axis)
+                    }
                 }
-                EventType::ButtonPressed(button) => (EventKind::Button, code(button), 1),
-                EventType::ButtonReleased(button) => (EventKind::Button, code(button), 0),
-                EventType::Connected => (EventKind::Connected, 0, 0),
-                EventType::Disconnected => (EventKind::Disconnected, 0, 0),
+                EventType::ButtonPressed(pressed) => button(pressed, 1),
+                EventType::ButtonReleased(released) => button(released, 0),
+                EventType::Connected => of_kind(EventKind::Connected),
+                EventType::Disconnected => of_kind(EventKind::Disconnected),
                 _ => continue,
             };
-            self.send(number, event.time, kind, code, value);
+            self.send(DeviceEvent { device: number, ..said }, event.time);
         }
     }
 
-    fn send(&mut self, device: u64, time: SystemTime, kind: EventKind, code: u64, value: i64) {
+    fn send(&mut self, event: DeviceEvent, time: SystemTime) {
         let kernel_time_ns = time
             .duration_since(UNIX_EPOCH)
             .map_or(0, |since| u64::try_from(since.as_nanos()).unwrap_or(0));
-        let mut event =
-            DeviceEvent { tick: 0, kernel_time_ns, device, kind: kind as u64, code, value };
+        let mut event = DeviceEvent { kernel_time_ns, ..event };
         // Full only if the loop stood still for many seconds: then wait, the kernel keeps the rest.
         while let Err(rtrb::PushError::Full(back)) = self.to_loop.push(event) {
             event = back;
@@ -200,4 +213,9 @@ impl Reader {
             }
         }
     }
+}
+
+/// An event of a kind, of which nothing else is known yet.
+fn of_kind(kind: EventKind) -> DeviceEvent {
+    DeviceEvent { kind: kind as u64, ..DeviceEvent::default() }
 }

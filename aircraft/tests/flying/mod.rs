@@ -170,7 +170,7 @@ impl Chance {
             );
         }
         if self.one_in(500) {
-            world.ground_height_m = self.between(-20.0, 20.0);
+            world = world.with_ground(self.between(-20.0, 20.0));
         }
         if self.one_in(500) {
             world.failures ^= Failures::FACTS[self.of(6) as usize].flag;

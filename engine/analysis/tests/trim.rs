@@ -30,7 +30,7 @@ fn flight(tilt_deg: f64, speed_kt: f64, flap_detent: u64) -> Target {
 
 /// A dozen steady flights of the envelope, and some that turn, climb, slip and hover near the ground.
 fn envelope() -> Vec<Target> {
-    let near_ground = World { ground_height_m: -6.0, ..World::default() };
+    let near_ground = World::default().with_ground(-6.0);
     let warm = World { temperature_offset_k: 20.0, ..Target::default().world };
     let failed = World { failures: Failures::ENGINE_LEFT, ..Target::default().world };
     vec![

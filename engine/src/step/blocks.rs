@@ -127,7 +127,7 @@ impl Blocks {
         };
         Self {
             air: *air,
-            ground_height_m: world.ground_height_m,
+            ground_height_m: world.ground_under_aircraft_m(),
             motion: body.motion,
             balance: body.balance,
             rotors: drive.rotors,
@@ -203,7 +203,7 @@ impl SideInputs {
         let Situation { aircraft, plant, surfaces, world, .. } = now;
         let hub_from_cg_m = aircraft.rotors.hub_from_cg(motion.cg_m, &mast);
         let hub = Vec3::new(hub_from_cg_m.x, outboard * hub_from_cg_m.y, hub_from_cg_m.z);
-        let height_above_ground_m = -plant.position_m.z - world.ground_height_m;
+        let height_above_ground_m = -plant.position_m.z - world.ground_under_aircraft_m();
         Self {
             motion,
             flow,

@@ -18,6 +18,15 @@ use crate::{LogError, cdr};
 /// Parts of the state that were called something else: as a log may name them, and as they are called today.
 const RENAMED: &[(&str, &str)] = &[("plant.treads.", "plant.tyre_deflections.")];
 
+/// Numbers that are several today, and were one: under each wheel, and under the aircraft.
+const WERE_ONE: &[&str] = &["world.ground_height_m"];
+
+/// The name of the one number that several of today were.
+fn was_part_of(path: &str) -> Option<&str> {
+    let one = |was: &&&str| path.strip_prefix(**was).is_some_and(|part| part.starts_with('.'));
+    WERE_ONE.iter().find(one).copied()
+}
+
 /// Today's name of a number of a log.
 fn todays_name(path: &str) -> String {
     let (of, bare) = path.strip_prefix("state.").map_or(("", path), |bare| ("state.", bare));
@@ -51,8 +60,9 @@ impl Mapping {
         let places: BTreeMap<_, _> =
             theirs.numbers().iter().enumerate().map(|(i, n)| (n.path.as_str(), i)).collect();
         let source = |number: &Number| {
+            let once = was_part_of(&number.path);
+            let place = places.get(number.path.as_str()).or_else(|| places.get(once?)).copied()?;
             // A name whose type has changed means something else.
-            let place = places.get(number.path.as_str()).copied()?;
             (theirs.numbers()[place].kind == number.kind).then_some(place)
         };
         let sources: Vec<_> = ours.numbers().iter().map(source).collect();

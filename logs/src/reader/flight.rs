@@ -12,6 +12,7 @@ use super::stream::Stream;
 use crate::channels::{Chain as InChain, Channel, ChannelId};
 use crate::container::checksums::is_whole;
 use crate::container::{LogFile, Record, RecordSource};
+use crate::devices::DeviceIdentity;
 use crate::evolution::{Difference, Mappings};
 use crate::open::{OpenOptions, source};
 use crate::records::{
@@ -76,6 +77,8 @@ pub struct FlightReader {
     pub happenings: Vec<EventRecord>,
     /// The same in words.
     pub remarks: Vec<Remark>,
+    /// Input devices that were found, in the order they were recorded.
+    pub devices: Vec<DeviceIdentity>,
     /// How the ticks kept time; cleared by whoever takes them.
     pub timings: Vec<TimingRecord>,
     /// What could be observed, if it is to be kept; cleared by whoever takes it.
@@ -237,6 +240,7 @@ impl FlightReader {
             ChannelId::Timing => self.timings.push(mappings.decode(ours, layout, data)?),
             ChannelId::Events => self.happenings.push(mappings.decode(ours, layout, data)?),
             ChannelId::Log => self.remarks.push(view::remark(data)?),
+            ChannelId::Devices => self.devices.push(DeviceIdentity::decode(data)?),
             // No flight depends on it: one of another form is none.
             ChannelId::Outputs if self.keep_outputs => {
                 let outputs: Option<Outputs> = mappings.decode(ours, layout, data).ok();

@@ -66,7 +66,7 @@ impl Default for Target {
             rpm_select: 0,
             gear_down: 0,
             scas_on: 0,
-            world: World { ground_height_m: GROUND_FAR_BELOW_M, ..World::default() },
+            world: World::default().with_ground(GROUND_FAR_BELOW_M),
         }
     }
 }
