@@ -15,6 +15,7 @@ use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::{Flight, Landing, Progress, fly};
 
+use crate::claim::Claim;
 use crate::status::Status;
 use crate::{condition, identity, numbers, report};
 
@@ -163,6 +164,8 @@ pub struct Plan {
     pub flight: Flight,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
+    /// Where its pictures go.
+    _claim: Option<Claim>,
 }
 
 impl Plan {
@@ -184,6 +187,7 @@ impl Plan {
         }
         let robot_description = aircraft::urdf(&aircraft);
         let link = common.destination().map(Link::new).transpose()?;
+        let claim = common.destination().map(Claim::of);
         if common.out.exists() && !common.force {
             bail!(
                 "{} exists; name another file with --out, or overwrite it with --force",
@@ -192,6 +196,7 @@ impl Plan {
         }
         Ok(Self {
             phases: Vec::new(),
+            _claim: claim,
             flight: Flight {
                 aircraft,
                 start,

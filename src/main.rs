@@ -16,6 +16,7 @@ macro_rules! complain {
     }};
 }
 
+mod claim;
 mod condition;
 mod demo;
 mod diff;

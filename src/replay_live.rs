@@ -9,6 +9,7 @@ use logs::Ending;
 use recorder::Pace;
 use replay::{Reflight, ReflyOptions};
 
+use crate::claim::Claim;
 use crate::numbers::between;
 use crate::report;
 use crate::status::Status;
@@ -41,6 +42,7 @@ pub fn run(args: &Args) -> Result<Status> {
         .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
+    let _claim = Claim::of(&args.flightgear);
     let pace = Pace::at_speed(args.speed);
     let mut ticks = 0;
     let mut first_difference = None;

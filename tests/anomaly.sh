@@ -33,6 +33,8 @@ from pathlib import Path
 page, folder, write = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 # How long something took, and how well it packs beside what tells that.
 TIMING = re.compile(r"^(overruns|late by|step|hand-over|to picture|writer|self-check|reflown in)\b")
+# When the flight was flown, and what follows from it.
+MOMENT = re.compile(r"(seal|started_unix_ns): .*")
 # Nobody listens: how many packets the system refuses is chance.
 PACKETS = re.compile(r"\d+ packets sent to (\S+), \d+ not")
 SIZE = re.compile(r"\d+(\.\d+)? (B|kB|MB)\b")
@@ -48,7 +50,9 @@ def run(command):
 
 def compared(lines):
     told = [line for line in lines if not TIMING.match(line)]
-    return [PACKETS.sub("packets", SIZE.sub("SIZE", line)) for line in told]
+    for pattern, words in ((PACKETS, "packets"), (SIZE, "SIZE"), (MOMENT, "moment")):
+        told = [pattern.sub(words, line) for line in told]
+    return told
 
 
 old = page.read_text().splitlines()

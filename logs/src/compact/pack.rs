@@ -65,17 +65,7 @@ pub fn compact(
     }
     let mut pack = packing.ok_or_else(|| LogError::NotAFlight("no message in it".into()))?;
     pack.close_last()?;
-    // Other people's tools write metadata while a chunk of messages waits: what comes after the writer's
-    // last word may still be his. It is, when he counted it.
-    if let Some(closing) = tail.iter().find(|record| record.name == CLOSING) {
-        let counted = closing.metadata.get(CLOSING_MESSAGES).map(|text| text.parse().ok());
-        if counted.is_some_and(|counted| !pack.roll_calls.are(counted)) {
-            return Err(LogError::Damaged(
-                "the messages are not those that its writer counted; `tiltrotor verify` says more"
-                    .into(),
-            ));
-        }
-    }
+    pack.refuse_others_count(&head, &tail)?;
     tail.iter().try_for_each(|record| pack.to.write_metadata(record))?;
     let original = from.fingerprint().cloned().unwrap_or_default();
     let last = [
@@ -193,6 +183,24 @@ impl Pack {
             _ => {}
         }
         define(&mut self.to, definition)
+    }
+
+    /// Other people's tools write metadata while a chunk of messages waits: what comes after the writer's
+    /// last word may still be his. It is, when he counted it.
+    fn refuse_others_count(&self, head: &[Record], tail: &[Metadata]) -> Result<(), LogError> {
+        let metadata = head.iter().filter_map(|record| match record {
+            Record::Metadata(record) => Some(record),
+            _ => None,
+        });
+        let closing = metadata.chain(tail).find(|record| record.name == CLOSING);
+        let counted = closing.and_then(|record| record.metadata.get(CLOSING_MESSAGES));
+        match counted.map(|text| text.parse().ok()) {
+            Some(counted) if !self.roll_calls.are(counted) => Err(LogError::Damaged(
+                "the messages are not those that its writer counted; `tiltrotor verify` says more"
+                    .into(),
+            )),
+            _ => Ok(()),
+        }
     }
 
     fn message(&mut self, header: MessageHeader, data: &[u8]) -> Result<(), LogError> {
