@@ -16,8 +16,9 @@ use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::{End, Flight, Landing, Progress, Snapshot, fly};
 
+use crate::claim::Claim;
 use crate::status::Status;
-use crate::{condition, identity, report};
+use crate::{condition, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
 #[derive(clap::Args)]
@@ -40,6 +41,7 @@ pub struct Args {
     air: Air,
     /// End the flight after this long, s
     #[arg(long, value_name = "SECONDS")]
+    #[arg(value_parser = numbers::duration_s, allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Refly each second on a spare thread while flying, and warn when a bit is not the same
     #[arg(long)]
@@ -54,22 +56,27 @@ struct Air {
     from_trim: bool,
     /// Nacelle incidence of that flight: 90 helicopter, 0 aeroplane, deg
     #[arg(long, value_name = "DEG", requires = "from_trim", default_value_t = 90.0)]
+    #[arg(value_parser = numbers::nacelle_deg, allow_negative_numbers = true)]
     nacelle: f64,
     /// True airspeed, kt
     #[arg(long, value_name = "KT", requires = "from_trim", default_value_t = 0.0)]
+    #[arg(value_parser = numbers::speed_kt, allow_negative_numbers = true)]
     speed_kt: f64,
     /// Above mean sea level, ft
     #[arg(long, value_name = "FT", requires = "from_trim", default_value_t = 1000.0)]
+    #[arg(value_parser = numbers::altitude_ft, allow_negative_numbers = true)]
     altitude_ft: f64,
     /// Rate of climb, ft/min
     #[arg(long, value_name = "FPM", requires = "from_trim", default_value_t = 0.0)]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(value_parser = numbers::climb_fpm, allow_negative_numbers = true)]
     climb_fpm: f64,
     /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
     #[arg(long, value_name = "DEG", requires = "from_trim")]
+    #[arg(value_parser = numbers::flap_deg, allow_negative_numbers = true)]
     flap: Option<f64>,
     /// Rotor speed, rpm (without: the slowest below 1 deg of nacelle)
     #[arg(long, value_name = "RPM", requires = "from_trim")]
+    #[arg(value_parser = numbers::rotor_rpm, allow_negative_numbers = true)]
     rpm: Option<f64>,
 }
 
@@ -92,11 +99,23 @@ pub struct Common {
     #[arg(long)]
     pub force: bool,
     /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
-    #[arg(long, value_name = "HOST:PORT", default_value = flightgear::DEFAULT_DESTINATION)]
-    pub flightgear: String,
+    /// [default: 127.0.0.1:5501; nothing is sent with --fast]
+    #[arg(long, value_name = "HOST:PORT")]
+    flightgear: Option<String>,
     /// Send nothing to FlightGear
     #[arg(long, conflicts_with = "flightgear")]
-    pub no_flightgear: bool,
+    no_flightgear: bool,
+}
+
+impl Common {
+    /// Where the pictures go. A flight as fast as it goes would fly over somebody's flight in real time.
+    fn destination(&self) -> Option<&str> {
+        match &self.flightgear {
+            Some(destination) => Some(destination),
+            None if self.no_flightgear || self.fast => None,
+            None => Some(flightgear::DEFAULT_DESTINATION),
+        }
+    }
 }
 
 /// Flies, and sums up.
@@ -107,11 +126,7 @@ pub fn run(args: &Args) -> Result<Status> {
         [&args.map, &args.script].into_iter().filter_map(|file| file.as_deref()).collect();
     output::refuse(&args.common.out, args.common.force, &inputs)?;
     if let Some(seconds) = args.duration {
-        let ticks = (seconds / STEP_S).round();
-        if !(ticks.is_finite() && ticks >= 1.0) {
-            bail!("--duration {seconds}: expected {STEP_S} s (one tick) or more");
-        }
-        plan.flight.ticks_max = Some(ticks as u64);
+        plan.flight.ticks_max = Some((seconds / STEP_S).round() as u64);
     }
     if args.air.from_trim {
         plan.begin_in(&args.air)?;
@@ -160,6 +175,8 @@ pub struct Plan {
     pipe: Option<fs::File>,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
+    /// Where its pictures go.
+    _claim: Option<Claim>,
 }
 
 impl Plan {
@@ -180,7 +197,8 @@ impl Plan {
             );
         }
         let robot_description = aircraft::urdf(&aircraft);
-        let link = if common.no_flightgear { None } else { Some(Link::new(&common.flightgear)?) };
+        let link = common.destination().map(Link::new).transpose()?;
+        let claim = common.destination().map(Claim::of);
         let inputs: Vec<&Path> =
             [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
         output::refuse(&common.out, common.force, &inputs)?;
@@ -189,6 +207,7 @@ impl Plan {
         Ok(Self {
             pipe,
             phases: Vec::new(),
+            _claim: claim,
             flight: Flight {
                 aircraft,
                 start,
@@ -271,7 +290,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases } = self;
+        let Self { flight, pipe: _pipe, phases, _claim } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();

@@ -3,6 +3,7 @@
 #[macro_use]
 mod console;
 
+mod claim;
 mod condition;
 mod demo;
 mod diff;
@@ -12,6 +13,7 @@ mod json;
 mod linearize;
 mod log;
 mod made;
+mod numbers;
 mod replay_live;
 mod report;
 mod status;
@@ -30,7 +32,7 @@ use status::Status;
 
 /// A deterministic, piloted simulation of the Bell XV-15, and the tooling around its log.
 #[derive(Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(version = env!("TILTROTOR_VERSION"), arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -77,7 +79,12 @@ fn main() -> ExitCode {
             _ => Status::Done,
         },
         Err(error) => {
-            let _ = error.print();
+            match numbers::in_words(&error) {
+                Some(words) => complain!("tiltrotor: {words}"),
+                None => {
+                    let _ = error.print();
+                }
+            }
             Status::Unusable
         }
     };

@@ -51,8 +51,12 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     }
     line("step", &flown.step, "the flight model");
     line("hand-over", &flown.record, "to the log's writer");
-    line("to picture", &flown.sent, "from sampling the inputs to the packet for FlightGear");
-    if flown.latency.count() > 0 {
+    // Without a packet there is no picture that could be late.
+    let pictures = landing.sent > 0;
+    if pictures {
+        line("to picture", &flown.sent, "from sampling the inputs to the packet for FlightGear");
+    }
+    if pictures && flown.latency.count() > 0 {
         line("latency", &flown.latency, "from the kernel's time of an input to the packet");
         say!(
             "           (limit of CS-FSTD(A): {LATENCY_LIMIT_MS} ms; the paper: 2.5 to 5 ms, peaks of \

@@ -27,7 +27,7 @@ pub enum Status {
 use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusable};
 
 /// The statuses with which each verb ends.
-const VERBS: [(&str, &[Status]); 18] = [
+const VERBS: [(&str, &[Status]); 19] = [
     ("fly", &[Done, Unusable, CutShort]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
@@ -39,6 +39,7 @@ const VERBS: [(&str, &[Status]); 18] = [
     ("log summary", &[Done, Differs, Unusable, NeverClosed]),
     ("log cat", &[Done, Differs, Unusable, NeverClosed]),
     ("log find", &[Done, Differs, Unusable, NeverClosed]),
+    ("log files", &[Done, Unusable, NeverClosed]),
     ("log export", &[Done, Differs, Unusable, NeverClosed]),
     ("log clip", &[Done, Unusable, NeverClosed]),
     ("log compact", &[Done, Unusable, NeverClosed]),

@@ -8,6 +8,7 @@ use engine::units::{DEG_PER_RAD as DEG, FOOT_M, HOUR_S, INCH_M, KNOT_MPS, POUND_
 use logs::output;
 
 use crate::condition::{Condition, sweep};
+use crate::numbers;
 use crate::status::Status;
 
 /// Which steady flight, or flights.
@@ -16,7 +17,7 @@ pub struct Args {
     #[command(flatten)]
     condition: Condition,
     /// Speeds FROM:TO:STEP instead of one, kt
-    #[arg(long, value_name = "KT:KT:KT", value_parser = Sweep::parse, conflicts_with = "speed_kt")]
+    #[arg(long, value_name = "KT:KT:KT", value_parser = Sweep::parse, allow_hyphen_values = true, conflicts_with = "speed_kt")]
     sweep: Option<Sweep>,
     /// Write the table to a file too, units in the names
     #[arg(long, value_name = "FILE")]
@@ -29,7 +30,13 @@ struct Sweep(Vec<f64>);
 
 impl Sweep {
     fn parse(text: &str) -> Result<Self, String> {
-        sweep(text).map(Self)
+        let speeds_kt = sweep(text)?;
+        let (least, greatest) = numbers::SPEED_KT;
+        if speeds_kt.iter().all(|speed_kt| (least..=greatest).contains(speed_kt)) {
+            Ok(Self(speeds_kt))
+        } else {
+            Err(format!("expected speeds of {least} to {greatest} kt"))
+        }
     }
 }
 

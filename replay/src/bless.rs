@@ -3,8 +3,9 @@
 use std::fmt;
 use std::path::Path;
 
-use engine::math::sqrt;
+use engine::math::{max, sqrt};
 use engine::{STEP_S, State};
+use logs::fields::Value;
 use logs::output::Output;
 use logs::text::at;
 use logs::{Ending, Identity, LogError, OpenOptions, cdr};
@@ -58,6 +59,22 @@ pub struct Largest {
     /// Now.
     pub now: String,
     absolute: f64,
+    /// The largest of the numbers of its group that changed, before or now.
+    scale: f64,
+    /// A real number, no count and no flag.
+    is_real: bool,
+}
+
+/// Changes below this part of the numbers that changed are rounding: what a model changes is larger.
+const ROUNDING_RELATIVE: f64 = 1e-9;
+/// And so are changes below this, in SI units, of what is 0 but for rounding itself.
+const ROUNDING_SI: f64 = 1e-12;
+
+impl Largest {
+    /// Whether it is no more than another order of operations makes. A count that changed is more.
+    fn is_rounding(&self) -> bool {
+        self.is_real && self.absolute <= max(ROUNDING_RELATIVE * self.scale, ROUNDING_SI)
+    }
 }
 
 /// Flies a golden flight anew by its recorded inputs, and says what moved. A flight from tick 0 begins
@@ -239,6 +256,11 @@ impl<'a> Seen<'a> {
             let absolute = difference.absolute();
             self.first_tick.get_or_insert(before.tick);
             let largest = &mut self.largest[difference.name.group];
+            let before_scale = largest.as_ref().map_or(0.0, |largest| largest.scale);
+            let scale = max(before_scale, difference.scale());
+            if let Some(largest) = largest {
+                largest.scale = scale;
+            }
             if largest.as_ref().is_none_or(|largest| absolute > largest.absolute) {
                 *largest = Some(Largest {
                     path: difference.name.path.clone(),
@@ -247,6 +269,8 @@ impl<'a> Seen<'a> {
                     before: difference.a.to_string(),
                     now: difference.b.to_string(),
                     absolute,
+                    scale,
+                    is_real: matches!(difference.a, Value::F64(_)),
                 });
             }
         }
@@ -265,6 +289,37 @@ impl Moved {
     fn first_bad_tick(&self, source: &Judgement) -> Option<u64> {
         let outputs = self.outputs.as_ref().and_then(|outputs| outputs.tick);
         [self.first_tick, source.first_bad_tick, outputs].into_iter().flatten().min()
+    }
+
+    fn write_groups(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.groups.is_empty() {
+            writeln!(f, "  {:<48} {:>12}  at", "largest change by field", "")?;
+        }
+        for group in &self.groups {
+            writeln!(
+                f,
+                "  {:<48} {:>12.5e} {:<6} {:>9.3} s  ({} -> {})",
+                group.path,
+                group.absolute,
+                group.unit,
+                s(group.tick),
+                group.before,
+                group.now
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Whether states moved, and none of them by more than another order of operations makes.
+    pub fn is_rounding(&self) -> bool {
+        !self.groups.is_empty()
+            && self.outputs.is_none()
+            && self.groups.iter().all(Largest::is_rounding)
+            && self.touchdowns.0.iter().eq(self
+                .touchdowns
+                .1
+                .iter()
+                .map(|touchdown| &touchdown.tick))
     }
 }
 
@@ -298,20 +353,15 @@ impl fmt::Display for Moved {
         if self.models.0 != self.models.1 {
             writeln!(f, "  flight model   {} -> {}", self.models.0, self.models.1)?;
         }
-        if !self.groups.is_empty() {
-            writeln!(f, "  {:<48} {:>12}  at", "largest change by field", "")?;
-        }
-        for group in &self.groups {
+        if self.is_rounding() {
             writeln!(
                 f,
-                "  {:<48} {:>12.5e} {:<6} {:>9.3} s  ({} -> {})",
-                group.path,
-                group.absolute,
-                group.unit,
-                s(group.tick),
-                group.before,
-                group.now
+                "  rounding only  {} groups of fields, none by more than {ROUNDING_RELATIVE:e} of what it is \
+                 or {ROUNDING_SI:e} in its SI unit",
+                self.groups.len()
             )?;
+        } else {
+            self.write_groups(f)?;
         }
         let apart = now.position_m - before.position_m;
         let distance = sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z);
@@ -326,5 +376,59 @@ impl fmt::Display for Moved {
         let list = |list: &[String]| if list.is_empty() { "none".into() } else { list.join("; ") };
         writeln!(f, "  touchdown      {} -> {}", list(&old), list(&new))?;
         write!(f, "  digest         {:016x} -> {:016x}", self.digests.0, self.digests.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moved(change: impl Fn(&mut State)) -> Moved {
+        let names = Names::of::<State>().expect("recordable");
+        let mut before = State::default();
+        before.plant.position_m.x = 1000.0;
+        before.plant.position_m.z = -300.0;
+        let mut now = before;
+        change(&mut now);
+        let mut seen = Seen::new(&names, &before);
+        seen.compare(&before, &now).expect("states");
+        Moved {
+            groups: seen.largest.into_iter().flatten().collect(),
+            first_tick: seen.first_tick,
+            seen_every_ticks: 1,
+            ends: (before, now),
+            touchdowns: (Vec::new(), Vec::new()),
+            digests: (1, 2),
+            outputs: None,
+            models: ("2".into(), "2"),
+            bytes: 0,
+        }
+    }
+
+    #[test]
+    fn rounding_is_called_so_in_a_line() {
+        let said = moved(|state| {
+            state.plant.position_m.x += 1e-12;
+            state.plant.velocity_mps.y = 1e-17;
+        });
+        assert!(said.is_rounding());
+        let said = said.to_string();
+        assert!(said.contains("rounding only  2 groups of fields"), "{said}");
+        assert!(!said.contains("velocity_mps.y"), "{said}");
+    }
+
+    #[test]
+    fn what_is_more_than_rounding_is_listed() {
+        for change in [
+            (|state: &mut State| state.plant.position_m.x += 1e-5) as fn(&mut State),
+            |state| state.plant.velocity_mps.y = 1e-9,
+            |state| state.plant.weight_on_wheels ^= 1,
+            |state| state.plant.fuel_kg = f64::NAN,
+        ] {
+            let said = moved(change);
+            assert!(!said.is_rounding());
+            assert!(said.to_string().contains("largest change by field"), "{said}");
+        }
+        assert!(!moved(|_| ()).is_rounding(), "nothing moved");
     }
 }

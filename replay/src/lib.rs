@@ -28,7 +28,7 @@ pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use judgement::{End, Facts, Judgement, Outcome, judge};
 pub use outputs::OutputsDifference;
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
-pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
+pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite, rewrite_in};
 pub use source::Source;
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};

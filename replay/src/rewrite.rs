@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use engine::inputs::World;
 use engine::{Inputs, Outputs, State, observe, step};
 use logs::output::Output;
-use logs::records::{EventRecord, Happening};
+use logs::records::{EventRecord, Happening, InputsRecord};
 use logs::view::Remark;
 use logs::{
     Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Messages, Narrator, Observed,
@@ -85,6 +86,20 @@ pub fn rewrite(
     reader: &mut FlightReader,
     initial: &State,
     new: &NewLog<'_>,
+    watch: impl FnMut(&Tick, &State, &Outputs, &FlightReader),
+) -> Result<Rewritten, ReplayError> {
+    rewrite_in(reader, initial, new, |world| world, watch)
+}
+
+/// The same in another world: `change` makes that of each tick of the recorded one.
+///
+/// # Errors
+/// As for [`rewrite`].
+pub fn rewrite_in(
+    reader: &mut FlightReader,
+    initial: &State,
+    new: &NewLog<'_>,
+    change: impl Fn(World) -> World,
     mut watch: impl FnMut(&Tick, &State, &Outputs, &FlightReader),
 ) -> Result<Rewritten, ReplayError> {
     let flown = read(new.setup)?;
@@ -112,11 +127,12 @@ pub fn rewrite(
                 writer.event(event)?;
                 narrator.event(&mut writer, event)?;
             }
-            writer.inputs(&tick.inputs)?;
-            narrator.inputs(&mut writer, &tick.inputs)?;
+            let inputs = InputsRecord { world: change(tick.inputs.world), ..tick.inputs };
+            writer.inputs(&inputs)?;
+            narrator.inputs(&mut writer, &inputs)?;
             crew_said(reader, &mut writer, &mut touchdown_ticks)?;
             let tick = &reader.tick;
-            let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
+            let inputs = Inputs { events: &tick.events, world: inputs.world };
             let (next, outputs) = step(aircraft, &state, &inputs);
             state = next;
             for timing in reader.timings.drain(..).filter(|_| new.timing) {

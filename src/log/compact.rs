@@ -10,6 +10,7 @@ use logs::output::Output;
 use logs::text::size;
 use replay::{Outcome, Source};
 
+use crate::numbers::between;
 use crate::status::Status;
 
 /// Seconds between two states that are kept: an eighth of what is kept at all, and soon flown.
@@ -25,6 +26,7 @@ pub struct CompactArgs {
     out: Option<PathBuf>,
     /// Seconds between two states that are kept
     #[arg(long, value_name = "SECONDS", default_value_t = KEYFRAMES_S)]
+    #[arg(value_parser = between(STEP_S, 1000.0, "s"), allow_negative_numbers = true)]
     keyframes: f64,
     /// Overwrite an existing file
     #[arg(long)]
@@ -47,9 +49,6 @@ pub struct ExpandArgs {
 /// Compacts.
 pub fn compact(args: &CompactArgs) -> Result<Status> {
     let keyframe_ticks = (args.keyframes / STEP_S).round();
-    if !(1.0..=250_000.0).contains(&keyframe_ticks) {
-        bail!("--keyframes {}: expected {STEP_S} s (one tick) to 1000 s", args.keyframes);
-    }
     let stem = stem(&args.log);
     let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"));
     let source = Source::proven(&args.log, "not compacted")

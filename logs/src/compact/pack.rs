@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
+use std::sync::Arc;
 
 use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use mcap::{Compression, WriteOptions, Writer};
@@ -15,11 +16,11 @@ use super::flier::{AircraftOf, Flier, short_digest};
 use super::proof::prove;
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted};
-use crate::container::checksums::add_message;
-use crate::container::{Index, LogFile, Record, RecordSource, stamped};
+use crate::container::checksums::{RollCalls, add_message};
+use crate::container::{Index, LogFile, Record, RecordSource, Schema, stamped};
 use crate::output::Output;
 use crate::records::{StateRecord, time_ns};
-use crate::setup::{CLOSING, Identity, METADATA};
+use crate::setup::{CLOSING, CLOSING_MESSAGES, Identity, METADATA};
 use crate::{LogError, cdr};
 
 /// Compacts a log, and expands it again in memory: the same messages, files and facts come back, or there
@@ -55,9 +56,6 @@ pub fn compact(
             continue;
         };
         match &mut record {
-            Record::Message(..) if tail.iter().any(|record| record.name == CLOSING) => {
-                return Err(LogError::Order("messages after the writer's last word".into()));
-            }
             Record::Message(header, data) => {
                 pack.message(*header, data)?;
                 progress(pack.states);
@@ -71,6 +69,7 @@ pub fn compact(
     }
     let mut pack = packing.ok_or_else(|| LogError::NotAFlight("no message in it".into()))?;
     pack.close_last()?;
+    pack.refuse_others_count(&head, &tail)?;
     tail.iter().try_for_each(|record| pack.to.write_metadata(record))?;
     let original = from.fingerprint().cloned().unwrap_or_default();
     let last = [
@@ -93,6 +92,10 @@ struct Pack {
     hash: Xxh3Default,
     /// Topic of each channel, and which of ours it is.
     topics: BTreeMap<u16, (String, Option<&'static Channel>)>,
+    /// Text of each message type, and of each channel's.
+    types: BTreeMap<u16, Arc<[u8]>>,
+    definitions: BTreeMap<u16, Arc<[u8]>>,
+    roll_calls: RollCalls,
     flier: Flier,
     /// A message as it was made again.
     again: Vec<u8>,
@@ -146,6 +149,9 @@ impl Pack {
             to,
             hash: Xxh3Default::new(),
             topics: BTreeMap::new(),
+            types: BTreeMap::new(),
+            definitions: BTreeMap::new(),
+            roll_calls: RollCalls::default(),
             flier: Flier::new(flown),
             again: Vec::new(),
             block: Block::after(0),
@@ -171,11 +177,44 @@ impl Pack {
             }
             self.topics.insert(*id, (topic.clone(), Channel::of(topic)));
         }
+        match definition {
+            Record::Schema(Schema { id, text, .. }) => {
+                self.types.insert(*id, text.as_slice().into());
+            }
+            Record::Channel(channel) => {
+                let text = self.types.get(&channel.schema_id).cloned().unwrap_or_default();
+                self.definitions.insert(channel.id, text);
+            }
+            _ => {}
+        }
         define(&mut self.to, definition)
     }
 
+    /// Other people's tools write metadata while a chunk of messages waits: what comes after the writer's
+    /// last word may still be his. It is, when he counted it.
+    fn refuse_others_count(&self, head: &[Record], tail: &[Metadata]) -> Result<(), LogError> {
+        let metadata = head.iter().filter_map(|record| match record {
+            Record::Metadata(record) => Some(record),
+            _ => None,
+        });
+        let closing = metadata.chain(tail).find(|record| record.name == CLOSING);
+        let counted = closing.and_then(|record| record.metadata.get(CLOSING_MESSAGES));
+        match counted.map(|text| text.parse().ok()) {
+            Some(counted) if !self.roll_calls.are(counted) => Err(LogError::Damaged(
+                "the messages are not those that its writer counted; `tiltrotor verify` says more"
+                    .into(),
+            )),
+            _ => Ok(()),
+        }
+    }
+
     fn message(&mut self, header: MessageHeader, data: &[u8]) -> Result<(), LogError> {
-        let channel = self.topics.get(&header.channel_id).and_then(|(_, channel)| *channel);
+        let (topic, channel) = self
+            .topics
+            .get(&header.channel_id)
+            .map_or(("", None), |(topic, channel)| (topic.as_str(), *channel));
+        let text = self.definitions.get(&header.channel_id).map_or(&[][..], |text| text);
+        self.roll_calls.add(topic, channel.is_some(), text, &header, data);
         let op = match channel.map(|channel| (channel, channel.compacted)) {
             Some((_, Compacted::Reflown)) => return self.state(header, data),
             Some((channel, Compacted::Rows)) => {

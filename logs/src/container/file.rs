@@ -123,6 +123,13 @@ impl LogFile {
 
     fn read(&mut self, into: &mut Record) -> Result<bool, LogError> {
         while let Some(event) = self.reader.next_event() {
+            // The file itself is read below: here only a decompressor fails to read.
+            let event = event.map_err(|error| match error {
+                McapError::Io(_) => LogError::Damaged(
+                    "a chunk of messages is not as written (it cannot be decompressed)".into(),
+                ),
+                error => error.into(),
+            });
             let (opcode, data) = match event? {
                 LinearReadEvent::Record { opcode, data } => (opcode, data),
                 LinearReadEvent::ReadRequest(wanted) => {
