@@ -110,7 +110,7 @@ impl Narrator {
             let measured = [v.norm(), now.gust_s];
             writer.happened(tick, Happening::Gust, now.gust_start_tick, measured, &words)?;
         }
-        if now.turbulence_mps != was.turbulence_mps {
+        if now.turbulence_mps.to_bits() != was.turbulence_mps.to_bits() {
             let words = format!("turbulence: {:.1} m/s, vertical intensity", now.turbulence_mps);
             let rough = u64::from(now.turbulence_mps > 0.0);
             let measured = [now.turbulence_mps, 0.0];
