@@ -245,10 +245,10 @@ impl Apart {
     fn say(&self, baseline: &Baseline) {
         match (self.first_tick, baseline.differs) {
             (None, None) => {
-                say!("it makes no difference: every state is the recorded one, to the bit")
+                say!("it makes no difference: every state is the recorded one, to the bit");
             }
             (None, Some(_)) => {
-                say!("the change makes no difference: every state is the baseline's")
+                say!("the change makes no difference: every state is the baseline's");
             }
             (Some(tick), differs) => {
                 if differs.is_some() {

@@ -162,6 +162,8 @@ pub fn list(mut world: World) {
 
 #[cfg(test)]
 mod tests {
+    use engine::math::{max, min};
+
     use super::*;
 
     fn read(world: &[&str], fail: &[&str], mend: &[&str]) -> Result<Changes> {
@@ -173,7 +175,7 @@ mod tests {
     fn a_setting_changes_its_number_and_no_other() {
         for key in &KEYS {
             let (least, greatest) = key.range;
-            let value = 0.25 * greatest.min(1.0) + 0.1 * least.max(0.0);
+            let value = 0.25 * min(greatest, 1.0) + 0.1 * max(least, 0.0);
             let changes = read(&[&format!("{}={value}", key.name)], &[], &[]).expect("a setting");
             let mut world = changes.apply(World::default());
             assert_eq!((key.of)(&mut world).to_bits(), value.to_bits(), "{}", key.name);
@@ -187,8 +189,8 @@ mod tests {
     #[test]
     fn failures_are_set_and_mended_and_others_stay() {
         let changes = read(&[], &["scas_yaw"], &["governor"]).expect("failures");
-        let mut world = World::default();
-        world.failures = Failures::GOVERNOR | Failures::ENGINE_LEFT;
+        let failures = Failures::GOVERNOR | Failures::ENGINE_LEFT;
+        let world = World { failures, ..World::default() };
         let failures = changes.apply(world).failures;
         assert_eq!(failures, Failures::SCAS_YAW | Failures::ENGINE_LEFT);
     }
