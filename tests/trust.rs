@@ -348,8 +348,8 @@ fn a_channel_of_somebody_else_s_is_compacted_and_comes_back() {
     let mut writer = options.create(Cursor::new(&mut bytes)).expect("a writer");
     flown.metadata.iter().for_each(|record| writer.write_metadata(record).expect("metadata"));
     flown.attachments.iter().for_each(|file| writer.attach(file).expect("an attachment"));
-    // A type of the name and form that the shape of the aircraft has, too.
-    let schema = writer.add_schema("std_msgs/msg/String", "ros2msg", b"string data\n");
+    // A type of the name that the shape of the aircraft has, too, but of another text.
+    let schema = writer.add_schema("std_msgs/msg/String", "ros2msg", b"string data # theirs\n");
     let theirs = writer.add_channel(schema.expect("a schema"), "/theirs", "cdr", &BTreeMap::new());
     let channel_id = theirs.expect("a channel");
     for (number, message) in flown.messages.iter().enumerate() {
