@@ -13,8 +13,9 @@ use divan::counter::ItemsCount;
 use engine::inputs::World;
 use engine::start::Start;
 use engine::{Aircraft, Inputs, State, step};
+use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
-use logs::{FlightWriter, Identity, Setup};
+use logs::{FlightWriter, Identity, Observed, Setup};
 use recorder::pilots::Pilot;
 use recorder::writer::{Recording, ToRecord};
 use recorder::{Flight, Progress, fly};
@@ -97,14 +98,15 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let state = start.on_wheels(&aircraft);
     let out = scratch("hand-over");
     let identity = Identity::new();
-    let writer = FlightWriter::create(&out, &setup(), &identity, &aircraft, "", &state, true)
-        .expect("a log");
-    let mut recording = Recording::start(writer, &state, std::sync::mpsc::channel().1);
+    let file = fs::File::create(&out).expect("a file");
+    let writer =
+        FlightWriter::create(file, &setup(), &identity, &aircraft, "", &state).expect("a log");
+    let mut recording = Recording::start(writer, &aircraft, &state, std::sync::mpsc::channel().1);
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);
         recording.put(ToRecord::Inputs(InputsRecord { tick, ..InputsRecord::default() }));
-        recording.put(ToRecord::State(State { tick: tick + 1, ..state }));
+        recording.put(ToRecord::State(State { tick: tick + 1, ..state }, Observed::default()));
         recording.put(ToRecord::Timing(TimingRecord { tick, ..TimingRecord::default() }));
     });
     recording.finish().0.expect("a whole log");
@@ -169,7 +171,8 @@ fn expand_ten_minutes(bencher: Bencher) {
     let (_, compact) = ten_minutes();
     let out = scratch("expanded");
     bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| {
-        let copied = logs::compact::expand(compact, &out, true, replay::flown, |_| ());
+        let output = Output::beside(&out, true, &[]).expect("a file");
+        let copied = logs::compact::expand(compact, &output, replay::flown, |_| ());
         assert_eq!(copied.expect("a log").same_file, Some(true));
     });
     let _ = fs::remove_file(out);

@@ -1,6 +1,6 @@
 //! The steady flight that a command is asked about, in a pilot's units.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use analysis::trim::{Power, Target};
 use anyhow::{Context, Result, bail};
@@ -8,49 +8,63 @@ use engine::math::min;
 use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_RADPS};
 use engine::{Aircraft, GRAVITY_MPS2};
 
-use crate::fly;
+use crate::numbers::between;
+use crate::{fly, numbers};
 
 /// Which steady flight.
 #[derive(Clone, clap::Args)]
 pub struct Condition {
     /// Nacelle incidence: 90 helicopter, 0 aeroplane, deg
-    #[arg(long, value_name = "DEG", default_value_t = 90.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 90.0)]
+    #[arg(value_parser = numbers::nacelle_deg, allow_negative_numbers = true)]
     pub nacelle: f64,
     /// True airspeed, kt
     #[arg(long, value_name = "KT", default_value_t = 0.0)]
+    #[arg(value_parser = numbers::speed_kt, allow_negative_numbers = true)]
     pub speed_kt: f64,
     /// Rate of climb, ft/min
-    #[arg(long, value_name = "FPM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FPM", default_value_t = 0.0)]
+    #[arg(value_parser = numbers::climb_fpm, allow_negative_numbers = true)]
     pub climb_fpm: f64,
     /// Power lever instead of a rate of climb, % of its travel: the climb follows
     #[arg(long, value_name = "PERCENT", conflicts_with = "climb_fpm")]
+    #[arg(value_parser = between(0.0, 100.0, "%"), allow_negative_numbers = true)]
     pub lever: Option<f64>,
     /// Rate of turn, right positive, deg/s
-    #[arg(long, value_name = "DEGPS", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGPS", default_value_t = 0.0)]
+    #[arg(value_parser = between(-90.0, 90.0, "deg/s"), allow_negative_numbers = true)]
     pub turn_degps: f64,
     /// Bank of a turn, right positive, deg; instead of its rate
-    #[arg(long, value_name = "DEG", conflicts_with = "turn_degps", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", conflicts_with = "turn_degps")]
+    #[arg(value_parser = between(-75.0, 75.0, "deg"), allow_negative_numbers = true)]
     pub bank_deg: Option<f64>,
     /// Sideslip, air from the right positive, deg
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    #[arg(value_parser = between(-90.0, 90.0, "deg"), allow_negative_numbers = true)]
     pub sideslip_deg: f64,
     /// Gross weight, lb
     #[arg(long, value_name = "LB", default_value_t = 13_000.0)]
+    #[arg(value_parser = between(2_500.0, 44_000.0, "lb"), allow_negative_numbers = true)]
     pub weight_lb: f64,
     /// Above mean sea level, ft
-    #[arg(long, value_name = "FT", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FT", default_value_t = 0.0)]
+    #[arg(value_parser = numbers::altitude_ft, allow_negative_numbers = true)]
     pub altitude_ft: f64,
     /// Centre of gravity above the ground, ft (the ground is not felt without)
     #[arg(long, value_name = "FT")]
+    #[arg(value_parser = between(0.0, 60_000.0, "ft"), allow_negative_numbers = true)]
     pub height_ft: Option<f64>,
     /// Warmer than the standard atmosphere by, K
-    #[arg(long, value_name = "K", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", default_value_t = 0.0)]
+    #[arg(value_parser = between(-80.0, 80.0, "K"), allow_negative_numbers = true)]
     pub isa_k: f64,
     /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
     #[arg(long, value_name = "DEG")]
+    #[arg(value_parser = numbers::flap_deg, allow_negative_numbers = true)]
     pub flap: Option<f64>,
     /// Rotor speed, one of those the governor offers, rpm (without: the slowest below 1 deg of nacelle)
     #[arg(long, value_name = "RPM")]
+    #[arg(value_parser = numbers::rotor_rpm, allow_negative_numbers = true)]
     pub rpm: Option<f64>,
     /// Gear down
     #[arg(long)]
@@ -100,13 +114,15 @@ pub fn rpm_select(aircraft: &Aircraft, rpm: Option<f64>, nacelle_deg: f64) -> Re
 }
 
 impl Condition {
+    /// The files that it is read from.
+    pub fn files(&self) -> Vec<&Path> {
+        self.aircraft.iter().map(PathBuf::as_path).collect()
+    }
+
     /// The aircraft, as heavy as asked for, and the flight.
     pub fn read(&self) -> Result<(Aircraft, Target)> {
         let (name, text) = fly::text_or(self.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;
         let aircraft = aircraft::aircraft(&name, &text)?;
-        if !(self.nacelle.is_finite() && (-1.0..=96.0).contains(&self.nacelle)) {
-            bail!("--nacelle {}: expected 0 (aeroplane) to 95 deg", self.nacelle);
-        }
         let airspeed_mps = self.speed_kt * KNOT_MPS;
         let (aircraft, fuel_kg) = weigh(aircraft, self.weight_lb * POUND_KG)?;
         let target = Target {

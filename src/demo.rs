@@ -1,10 +1,12 @@
 //! `tiltrotor demo`.
 
 use anyhow::Result;
+#[cfg(feature = "rerun")]
+use logs::output;
 
 use crate::fly::{Common, Plan};
 use crate::status::Status;
-use crate::{report, verify};
+use crate::{fly, report, verify};
 
 /// The demonstration flight.
 #[derive(clap::Args)]
@@ -21,9 +23,7 @@ pub fn run(args: &Args) -> Result<Status> {
     #[cfg(feature = "rerun")]
     let saved = out.with_extension("rrd");
     #[cfg(feature = "rerun")]
-    if saved.exists() && !args.common.force {
-        anyhow::bail!("{} exists; overwrite it with --force", saved.display());
-    }
+    output::refuse(&saved, args.common.force, &[])?;
     let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP)?;
     plan.set_pilot("demo", &map)?;
     plan.set_map(map)?;
@@ -45,10 +45,15 @@ pub fn run(args: &Args) -> Result<Status> {
     if landing.log.is_err() {
         return Ok(Status::CutShort);
     }
-    let status = verify::verify_one(out);
+    let status = match verify::verify_one(out) {
+        Status::Done if !fly::is_whole(&landing) => Status::CutShort,
+        status => status,
+    };
     #[cfg(feature = "rerun")]
     {
-        let (bytes, _) = crate::view::save(out, &saved, &replay::Window::default())?;
+        let output = output::Output::beside(&saved, args.common.force, &[out])?;
+        let (bytes, _) = crate::view::save(out, &output, &replay::Window::default())?;
+        output.finish()?;
         say!("{}: {}, for `rerun {0}`", saved.display(), logs::text::size(bytes));
     }
     Ok(status)

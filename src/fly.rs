@@ -11,12 +11,14 @@ use engine::cockpit;
 use flightgear::Link;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
+use logs::output;
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
-use recorder::{Flight, Landing, Progress, fly};
+use recorder::{End, Flight, Landing, Progress, Snapshot, fly};
 
+use crate::claim::Claim;
 use crate::status::Status;
-use crate::{condition, identity, report};
+use crate::{condition, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
 #[derive(clap::Args)]
@@ -39,6 +41,7 @@ pub struct Args {
     air: Air,
     /// End the flight after this long, s
     #[arg(long, value_name = "SECONDS")]
+    #[arg(value_parser = numbers::duration_s, allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Refly each second on a spare thread while flying, and warn when a bit is not the same
     #[arg(long)]
@@ -53,22 +56,27 @@ struct Air {
     from_trim: bool,
     /// Nacelle incidence of that flight: 90 helicopter, 0 aeroplane, deg
     #[arg(long, value_name = "DEG", requires = "from_trim", default_value_t = 90.0)]
+    #[arg(value_parser = numbers::nacelle_deg, allow_negative_numbers = true)]
     nacelle: f64,
     /// True airspeed, kt
     #[arg(long, value_name = "KT", requires = "from_trim", default_value_t = 0.0)]
+    #[arg(value_parser = numbers::speed_kt, allow_negative_numbers = true)]
     speed_kt: f64,
     /// Above mean sea level, ft
     #[arg(long, value_name = "FT", requires = "from_trim", default_value_t = 1000.0)]
+    #[arg(value_parser = numbers::altitude_ft, allow_negative_numbers = true)]
     altitude_ft: f64,
     /// Rate of climb, ft/min
     #[arg(long, value_name = "FPM", requires = "from_trim", default_value_t = 0.0)]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(value_parser = numbers::climb_fpm, allow_negative_numbers = true)]
     climb_fpm: f64,
     /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
     #[arg(long, value_name = "DEG", requires = "from_trim")]
+    #[arg(value_parser = numbers::flap_deg, allow_negative_numbers = true)]
     flap: Option<f64>,
     /// Rotor speed, rpm (without: the slowest below 1 deg of nacelle)
     #[arg(long, value_name = "RPM", requires = "from_trim")]
+    #[arg(value_parser = numbers::rotor_rpm, allow_negative_numbers = true)]
     rpm: Option<f64>,
 }
 
@@ -91,23 +99,34 @@ pub struct Common {
     #[arg(long)]
     pub force: bool,
     /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
-    #[arg(long, value_name = "HOST:PORT", default_value = flightgear::DEFAULT_DESTINATION)]
-    pub flightgear: String,
+    /// [default: 127.0.0.1:5501; nothing is sent with --fast]
+    #[arg(long, value_name = "HOST:PORT")]
+    flightgear: Option<String>,
     /// Send nothing to FlightGear
     #[arg(long, conflicts_with = "flightgear")]
-    pub no_flightgear: bool,
+    no_flightgear: bool,
+}
+
+impl Common {
+    /// Where the pictures go. A flight as fast as it goes would fly over somebody's flight in real time.
+    fn destination(&self) -> Option<&str> {
+        match &self.flightgear {
+            Some(destination) => Some(destination),
+            None if self.no_flightgear || self.fast => None,
+            None => Some(flightgear::DEFAULT_DESTINATION),
+        }
+    }
 }
 
 /// Flies, and sums up.
 pub fn run(args: &Args) -> Result<Status> {
     let mut plan = Plan::new(&args.common)?;
     plan.flight.self_check = args.self_check;
+    let inputs: Vec<&Path> =
+        [&args.map, &args.script].into_iter().filter_map(|file| file.as_deref()).collect();
+    output::refuse(&args.common.out, args.common.force, &inputs)?;
     if let Some(seconds) = args.duration {
-        let ticks = (seconds / STEP_S).round();
-        if !(ticks.is_finite() && ticks >= 1.0) {
-            bail!("--duration {seconds}: expected {STEP_S} s (one tick) or more");
-        }
-        plan.flight.ticks_max = Some(ticks as u64);
+        plan.flight.ticks_max = Some((seconds / STEP_S).round() as u64);
     }
     if args.air.from_trim {
         plan.begin_in(&args.air)?;
@@ -140,15 +159,24 @@ pub fn run(args: &Args) -> Result<Status> {
     let real_time = plan.flight.real_time;
     let landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
-    Ok(if landing.log.is_ok() { Status::Done } else { Status::CutShort })
+    Ok(if is_whole(&landing) { Status::Done } else { Status::CutShort })
+}
+
+/// Whether the flight was flown and recorded as it was to be; who ends it may do so.
+pub fn is_whole(landing: &Landing) -> bool {
+    landing.log.is_ok() && !matches!(landing.end, End::GaveUp(_))
 }
 
 /// A flight being prepared.
 pub struct Plan {
     /// What will be flown.
     pub flight: Flight,
+    /// The pipe that the log goes into, if it does, kept open.
+    pipe: Option<fs::File>,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
+    /// Where its pictures go.
+    _claim: Option<Claim>,
 }
 
 impl Plan {
@@ -169,15 +197,17 @@ impl Plan {
             );
         }
         let robot_description = aircraft::urdf(&aircraft);
-        let link = if common.no_flightgear { None } else { Some(Link::new(&common.flightgear)?) };
-        if common.out.exists() && !common.force {
-            bail!(
-                "{} exists; name another file with --out, or overwrite it with --force",
-                common.out.display()
-            );
-        }
+        let link = common.destination().map(Link::new).transpose()?;
+        let claim = common.destination().map(Claim::of);
+        let inputs: Vec<&Path> =
+            [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
+        output::refuse(&common.out, common.force, &inputs)?;
+        let pipe = recorder::pipe::take(&common.out)
+            .with_context(|| format!("cannot write {}", common.out.display()))?;
         Ok(Self {
+            pipe,
             phases: Vec::new(),
+            _claim: claim,
             flight: Flight {
                 aircraft,
                 start,
@@ -260,43 +290,19 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
+        let Self { flight, pipe: _pipe, phases, _claim } = self;
         let landing = thread::scope(|scope| {
-            let flight = self.flight;
             let flying = scope.spawn(|| fly(flight, &progress));
-            let mut told_of_log = false;
-            let mut told_of_mismatch = false;
+            let mut told = Snapshot::default();
             while !flying.is_finished() {
                 thread::sleep(Duration::from_millis(100));
                 let now = progress.now();
-                // Phases count from 1; 0 is before the first.
-                let phase = usize::try_from(now.phase)
-                    .ok()
-                    .and_then(|number| self.phases.get(number.checked_sub(1)?));
-                bar.set_message(format!(
-                    "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  {} late  {}",
-                    now.tick as f64 * STEP_S,
-                    now.height_m,
-                    engine::units::knots(now.airspeed_mps),
-                    report::compass_deg(now.heading_rad),
-                    now.overruns,
-                    phase.unwrap_or(&"")
-                ));
+                bar.set_message(line(&now, &phases));
                 bar.tick();
-                if now.mismatches > 0 && !told_of_mismatch {
-                    told_of_mismatch = true;
-                    bar.suspend(|| {
-                        complain!(
-                            "WARNING: the flight is not the same when reflown: do not trust this \
-                             machine, or report this; the log says where"
-                        );
-                    });
+                for warning in warnings(&told, &now) {
+                    bar.suspend(|| complain!("WARNING: {warning}"));
                 }
-                if now.log_failed && !told_of_log {
-                    told_of_log = true;
-                    bar.suspend(|| {
-                        complain!("WARNING: the log cannot be written any further; flying on");
-                    });
-                }
+                told = now;
             }
             flying.join()
         });
@@ -304,6 +310,45 @@ impl Plan {
         let landing = landing.map_err(|_| anyhow::anyhow!("the flight died of a fault of ours"))?;
         Ok(landing?)
     }
+}
+
+/// Where the flight is, in a line.
+fn line(now: &Snapshot, phases: &[&str]) -> String {
+    // Phases count from 1; 0 is before the first.
+    let phase = usize::try_from(now.phase)
+        .ok()
+        .and_then(|number| phases.get(number.checked_sub(1)?).copied());
+    format!(
+        "{:6.1} s  height {:6.1} m  speed {:5.1} kt  heading {:03.0}°  {} late  {}",
+        now.tick as f64 * STEP_S,
+        now.height_m,
+        engine::units::knots(now.airspeed_mps),
+        report::compass_deg(now.heading_rad),
+        now.overruns,
+        phase.unwrap_or("")
+    )
+}
+
+/// What the crew is to know, and has not been told.
+fn warnings(told: &Snapshot, now: &Snapshot) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if now.slips > told.slips {
+        let slip_s = now.slipped_s - told.slipped_s;
+        warnings.push(format!(
+            "the clock slipped by {slip_s:.1} s: the process stood still, and so did the flight"
+        ));
+    }
+    if now.mismatches > 0 && told.mismatches == 0 {
+        warnings.push(
+            "the flight is not the same when reflown: do not trust this machine, or report this; the \
+             log says where"
+                .into(),
+        );
+    }
+    if now.log_failed && !told.log_failed {
+        warnings.push("the log cannot be written any further; flying on".into());
+    }
+    warnings
 }
 
 fn pilot_names() -> String {

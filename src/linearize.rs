@@ -1,14 +1,14 @@
 //! `tiltrotor linearize`.
 
-use std::fs;
 use std::path::PathBuf;
 
 use analysis::linearize::{INPUTS, Linear, OUTPUTS, decibels, linearize};
 use analysis::modes::{Mode, modes};
 use analysis::trim::{Trim, trim};
 use analysis::{Complex, Matrix, Polar, Unsolved};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use engine::units::{DEG_PER_RAD as DEG, INCH_M};
+use logs::output;
 
 use crate::condition::Condition;
 use crate::status::Status;
@@ -77,6 +77,9 @@ const OMEGAS: [f64; 11] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.
 
 /// Trims, linearises, and prints modes and matrices.
 pub fn run(args: &Args) -> Result<Status> {
+    if let Some(path) = &args.csv {
+        output::refuse(path, true, &args.condition.files())?;
+    }
     let (aircraft, target) = args.condition.read()?;
     let trim = match trim(&aircraft, &target) {
         Ok(trim) => trim,
@@ -87,8 +90,8 @@ pub fn run(args: &Args) -> Result<Status> {
         Ok(found) => {
             found.print(args, &trim, &linear);
             if let Some(path) = &args.csv {
-                fs::write(path, csv(&linear, &found.eigenvalues))
-                    .with_context(|| format!("cannot write {}", path.display()))?;
+                let text = csv(&linear, &found.eigenvalues);
+                output::write(path, &text, &args.condition.files())?;
             }
             Ok(Status::Done)
         }

@@ -4,6 +4,8 @@ mod cat;
 mod clip;
 mod compact;
 mod export;
+mod files;
+mod find;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -29,6 +31,10 @@ pub enum Command {
     },
     /// Every recorded number of a log, a line of JSON a message, units in the names
     Cat(cat::Args),
+    /// What happened: events, and every change of the world and of a button; `--around 135` for a moment
+    Find(find::Args),
+    /// The files in a log: aircraft, cockpit map, scenario and whatever else was attached
+    Files(files::Args),
     /// Logs as tables, CSV or Parquet, units in the columns' names: a folder a channel, a file a flight
     Export(export::Args),
     /// What an engineer reads of a flight: events, greatest values and when, touchdown, where it ended
@@ -64,6 +70,8 @@ pub fn run(command: &Command) -> Result<Status> {
     match command {
         Command::Info { log } => info(log),
         Command::Cat(args) => cat::run(args),
+        Command::Find(args) => find::run(args),
+        Command::Files(args) => files::run(args),
         Command::Export(args) => export::run(args),
         Command::Summary { log, window } => summary(log, window),
         Command::Clip(args) => clip::run(args),

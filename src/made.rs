@@ -1,9 +1,9 @@
 //! A log that was made of another one: proven before it is said to be there.
 
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use logs::output::Output;
 use replay::{Judgement, Options, Outcome, Source, verify};
 
 use crate::status::Status;
@@ -15,21 +15,26 @@ pub struct Made {
 }
 
 impl Made {
-    /// Reflies a log that was just made; what is not sound is removed again.
-    pub fn of(source: &Source, out: &Path) -> Result<Self> {
-        let verdict = verify(out, &Options::default(), |_| ());
-        let remove = || {
-            let _ = fs::remove_file(out);
-        };
-        let verdict =
-            verdict.inspect_err(|_| remove()).with_context(|| out.display().to_string())?;
-        let judgement = verdict.judgement;
+    /// Reflies a log that was just written, and puts it in its place when it is sound.
+    pub fn of(source: &Source, output: Output) -> Result<Self> {
+        let made = Self::judged(source, output.unfinished(), output.path())?;
+        output.finish()?;
+        Ok(made)
+    }
+
+    /// Reflies a log that is in its place already.
+    pub fn finished(source: &Source, out: &Path) -> Result<Self> {
+        Self::judged(source, out, out)
+    }
+
+    fn judged(source: &Source, written: &Path, named: &Path) -> Result<Self> {
+        let verdict = verify(written, &Options::default(), |_| ());
+        let judgement = verdict.with_context(|| named.display().to_string())?.judgement;
         // One that was made of a recovered log says so.
         if !matches!(judgement.outcome, Outcome::Exact | Outcome::NeverClosed) {
-            remove();
             bail!(
                 "{}: not made: read again, it is not what was written: {judgement}",
-                out.display()
+                named.display()
             );
         }
         Ok(Self { source: source.judgement.clone(), judgement })

@@ -1,21 +1,9 @@
 //! The `tiltrotor` command: flies, reflies, verifies and shows.
 
-/// Prints a line. Whoever closes the pipe early, as `head` does, has seen enough: no error, no panic.
-macro_rules! say {
-    ($($what:tt)*) => {{
-        use std::io::Write as _;
-        let _ = writeln!(std::io::stdout(), $($what)*);
-    }};
-}
+#[macro_use]
+mod console;
 
-/// Prints a line for the eye only, on standard error.
-macro_rules! complain {
-    ($($what:tt)*) => {{
-        use std::io::Write as _;
-        let _ = writeln!(std::io::stderr(), $($what)*);
-    }};
-}
-
+mod claim;
 mod condition;
 mod demo;
 mod diff;
@@ -25,6 +13,7 @@ mod json;
 mod linearize;
 mod log;
 mod made;
+mod numbers;
 mod replay_live;
 mod report;
 mod status;
@@ -34,6 +23,7 @@ mod view;
 mod whatif;
 mod window;
 
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -42,7 +32,7 @@ use status::Status;
 
 /// A deterministic, piloted simulation of the Bell XV-15, and the tooling around its log.
 #[derive(Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(version = env!("TILTROTOR_VERSION"), arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -76,9 +66,39 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let matches = status::explained(Cli::command()).get_matches();
-    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
-    let run = match cli.command {
+    let command = status::explained(Cli::command());
+    let parsed = command.try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let status = match parsed {
+        Ok(cli) => run(cli.command).unwrap_or_else(|error| {
+            complain!("tiltrotor: {error:#}");
+            Status::Unusable
+        }),
+        // Help and version go to standard output, and an error with them is one.
+        Err(shown) if !shown.use_stderr() => match shown.print() {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => unwritten(&error),
+            _ => Status::Done,
+        },
+        Err(error) => {
+            match numbers::in_words(&error) {
+                Some(words) => complain!("tiltrotor: {words}"),
+                None => {
+                    let _ = error.print();
+                }
+            }
+            Status::Unusable
+        }
+    };
+    console::finish().map_or_else(|error| unwritten(&error), |()| status).into()
+}
+
+/// A report that nobody can read is no result, whatever it says.
+fn unwritten(error: &std::io::Error) -> Status {
+    complain!("tiltrotor: cannot write to standard output: {error}");
+    Status::Unusable
+}
+
+fn run(command: Command) -> anyhow::Result<Status> {
+    match command {
         Command::Fly(args) => fly::run(&args),
         Command::Replay(args) => replay_live::run(&args),
         Command::Verify(args) => verify::run(&args),
@@ -89,10 +109,5 @@ fn main() -> ExitCode {
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),
         Command::Demo(args) => demo::run(&args),
-    };
-    let status = run.unwrap_or_else(|error| {
-        complain!("tiltrotor: {error:#}");
-        Status::Unusable
-    });
-    status.into()
+    }
 }

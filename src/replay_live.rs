@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, anyhow};
 use engine::STEP_S;
 use flightgear::Link;
 use recorder::Pace;
 use replay::judgement::disorder;
 use replay::{Facts, Reflight, ReflyOptions};
 
+use crate::claim::Claim;
+use crate::numbers::between;
 use crate::report;
 use crate::status::Status;
 use crate::window::WindowArgs;
@@ -23,6 +25,7 @@ pub struct Args {
     flightgear: String,
     /// Times real time
     #[arg(long, default_value_t = 1.0)]
+    #[arg(value_parser = between(0.01, 1000.0, "times real time"), allow_negative_numbers = true)]
     speed: f64,
     #[command(flatten)]
     window: WindowArgs,
@@ -33,17 +36,15 @@ pub struct Args {
 
 /// Reflies the log and sends every tick's picture.
 pub fn run(args: &Args) -> Result<Status> {
-    if !(args.speed.is_finite() && (0.01..=1000.0).contains(&args.speed)) {
-        bail!("--speed {}: expected 0.01 to 1000", args.speed);
-    }
     let window = args.window.of(&args.log)?;
     let options = ReflyOptions { window, across_versions: args.across_versions };
     let mut flight = Reflight::open(&args.log, &options)
         .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = flight.state.tick;
     let mut link = Link::new(&args.flightgear)?;
-    let pace = Pace::at_speed(args.speed);
-    let mut ticks = 0;
+    let _claim = Claim::of(&args.flightgear);
+    let mut pace = Pace::at_speed(args.speed);
+    let (mut ticks, mut slipped_ns) = (0, 0);
     let mut told = false;
     let mut facts = Facts::of_reflight(&flight);
     let disorder = loop {
@@ -52,7 +53,11 @@ pub fn run(args: &Args) -> Result<Status> {
             Ok(None) => break None,
             Err(error) => break Some(disorder(error)?),
         };
-        pace.wait(ticks);
+        let woken = pace.wait(ticks);
+        if woken.slip_ns > 0 {
+            slipped_ns += woken.slip_ns;
+            complain!("tiltrotor: {}", recorder::writer::slipped(woken.slip_ns));
+        }
         link.send(reflown.outputs);
         let exact = reflown.exact;
         facts.add(reflown.recorded, Some(exact));
@@ -76,6 +81,9 @@ pub fn run(args: &Args) -> Result<Status> {
         link.destination(),
         link.dropped()
     );
+    if slipped_ns > 0 {
+        say!("the clock slipped by {:.3} s in all", slipped_ns as f64 * 1e-9);
+    }
     if let Some(versions) = &flight.versions() {
         say!("{versions}");
     }

@@ -4,8 +4,8 @@ use engine::STEP_S;
 use engine::units::degrees;
 use logs::LogError;
 use logs::text::size;
-use recorder::Landing;
 use recorder::statistics::Durations;
+use recorder::{End, Landing};
 use replay::ReplayError;
 
 /// Why a log is not reflown, and what can be done about it.
@@ -40,10 +40,23 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
         say!("overruns   {} ticks ended after the next one was due", flown.overruns);
         line("late by", &flown.late, "from when a tick was due until it ran");
     }
+    if flown.slips > 0 {
+        say!(
+            "slips      the clock slipped {} times, {:.3} s at most, {:.3} s in all: the process stood \
+             still, and so did the flight",
+            flown.slips,
+            flown.slip_ns_max as f64 * 1e-9,
+            flown.slip_ns as f64 * 1e-9
+        );
+    }
     line("step", &flown.step, "the flight model");
     line("hand-over", &flown.record, "to the log's writer");
-    line("to picture", &flown.sent, "from sampling the inputs to the packet for FlightGear");
-    if flown.latency.count() > 0 {
+    // Without a packet there is no picture that could be late.
+    let pictures = landing.sent > 0;
+    if pictures {
+        line("to picture", &flown.sent, "from sampling the inputs to the packet for FlightGear");
+    }
+    if pictures && flown.latency.count() > 0 {
         line("latency", &flown.latency, "from the kernel's time of an input to the packet");
         say!(
             "           (limit of CS-FSTD(A): {LATENCY_LIMIT_MS} ms; the paper: 2.5 to 5 ms, peaks of \
@@ -59,6 +72,9 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
             closed.digest
         ),
         Err(error) => say!("log        {out} ends before the flight did: {error}"),
+    }
+    if let Some(older) = &landing.set_aside {
+        say!("           the log that was there before is kept as {}", older.display());
     }
     if landing.delay.times > 0 {
         say!(
@@ -79,6 +95,9 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
             checked.busy.as_secs_f64()
         );
         line("", &checked.hand_over, "what it cost the loop");
+    }
+    if !matches!(landing.end, End::Done | End::TimeUp) {
+        say!("end        {}", landing.end);
     }
     for refused in &landing.refused {
         say!("note       {refused}");

@@ -27,7 +27,7 @@ pub enum Status {
 use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusable};
 
 /// The statuses with which each verb ends.
-const VERBS: [(&str, &[Status]); 17] = [
+const VERBS: [(&str, &[Status]); 19] = [
     ("fly", &[Done, Unusable, CutShort]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
@@ -38,6 +38,8 @@ const VERBS: [(&str, &[Status]); 17] = [
     ("log info", &[Done, Differs, Unusable, NeverClosed]),
     ("log summary", &[Done, Differs, Unusable, NeverClosed]),
     ("log cat", &[Done, Differs, Unusable, NeverClosed]),
+    ("log find", &[Done, Differs, Unusable, NeverClosed]),
+    ("log files", &[Done, Unusable, NeverClosed]),
     ("log export", &[Done, Differs, Unusable, NeverClosed]),
     ("log clip", &[Done, Unusable, NeverClosed]),
     ("log compact", &[Done, Unusable, NeverClosed]),

@@ -1,13 +1,14 @@
 //! `tiltrotor trim`.
 
-use std::fs;
 use std::path::PathBuf;
 
 use analysis::trim::{Failure, ROOT_FROM_THREE_QUARTERS_RAD, Target, Trim, trim, trim_near};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use engine::units::{DEG_PER_RAD as DEG, FOOT_M, HOUR_S, INCH_M, KNOT_MPS, POUND_KG, POUND_N};
+use logs::output;
 
 use crate::condition::{Condition, sweep};
+use crate::numbers;
 use crate::status::Status;
 
 /// Which steady flight, or flights.
@@ -16,7 +17,7 @@ pub struct Args {
     #[command(flatten)]
     condition: Condition,
     /// Speeds FROM:TO:STEP instead of one, kt
-    #[arg(long, value_name = "KT:KT:KT", value_parser = Sweep::parse, conflicts_with = "speed_kt")]
+    #[arg(long, value_name = "KT:KT:KT", value_parser = Sweep::parse, allow_hyphen_values = true, conflicts_with = "speed_kt")]
     sweep: Option<Sweep>,
     /// Write the table to a file too, units in the names
     #[arg(long, value_name = "FILE")]
@@ -29,7 +30,13 @@ struct Sweep(Vec<f64>);
 
 impl Sweep {
     fn parse(text: &str) -> Result<Self, String> {
-        sweep(text).map(Self)
+        let speeds_kt = sweep(text)?;
+        let (least, greatest) = numbers::SPEED_KT;
+        if speeds_kt.iter().all(|speed_kt| (least..=greatest).contains(speed_kt)) {
+            Ok(Self(speeds_kt))
+        } else {
+            Err(format!("expected speeds of {least} to {greatest} kt"))
+        }
     }
 }
 
@@ -110,6 +117,9 @@ impl Column {
 
 /// Trims, and prints a list or a table.
 pub fn run(args: &Args) -> Result<Status> {
+    if let Some(path) = &args.csv {
+        output::refuse(path, true, &args.condition.files())?;
+    }
     let (aircraft, target) = args.condition.read()?;
     let speeds_kt = match &args.sweep {
         Some(Sweep(speeds)) => speeds.clone(),
@@ -129,7 +139,7 @@ pub fn run(args: &Args) -> Result<Status> {
         rows.push((speed_kt, found));
     }
     if let Some(path) = &args.csv {
-        fs::write(path, csv(&rows)).with_context(|| format!("cannot write {}", path.display()))?;
+        output::write(path, &csv(&rows), &args.condition.files())?;
     }
     if args.sweep.is_some() {
         table(&rows);

@@ -31,6 +31,7 @@ mod with_rerun {
 
     use anyhow::{Context, bail};
     use engine::STEP_NS;
+    use logs::output::Output;
     use logs::text::{at, size};
     use replay::judgement::disorder;
     use replay::view::{DrawError, FlightView, Other, Severity, draw_against, severity};
@@ -41,9 +42,9 @@ mod with_rerun {
     /// Reflies the log into a recording, and opens the viewer unless it is to be saved.
     pub fn run(args: &Args) -> Result<Status> {
         let saved = args.save.clone().unwrap_or_else(|| args.log.with_extension("rrd"));
-        if saved.exists() && !args.force {
-            bail!("{} exists; overwrite it with --force", saved.display());
-        }
+        let inputs: Vec<&Path> =
+            [Some(&args.log), args.against.as_ref()].into_iter().flatten().map(|f| &**f).collect();
+        let output = Output::beside(&saved, args.force, &inputs)?;
         let window = args.window.of(&args.log)?;
         let (bytes, status) = match &args.against {
             Some(_) if window != Window::default() => {
@@ -51,9 +52,10 @@ mod with_rerun {
                     "--against shows whole flights; `tiltrotor log clip` makes logs of their parts"
                 )
             }
-            Some(other) => save_against(&args.log, Other::Log(other), &saved)?,
-            None => save(&args.log, &saved, &window)?,
+            Some(other) => save_against(&args.log, Other::Log(other), &output)?,
+            None => save(&args.log, &output, &window)?,
         };
+        output.finish()?;
         say!("{}: {} for rerun", saved.display(), size(bytes));
         if args.save.is_none() {
             Command::new("rerun").arg(&saved).spawn().with_context(|| {
@@ -67,7 +69,7 @@ mod with_rerun {
     }
 
     /// Draws the log and what is beside it into a recording; returns its size, and the status of the gravest of the two.
-    fn save_against(log: &Path, other: Other, saved: &Path) -> Result<(u64, Status)> {
+    fn save_against(log: &Path, other: Other, saved: &Output) -> Result<(u64, Status)> {
         let drawn = draw_against(log, other, saved).map_err(|error| match (&error, other) {
             // Which of the two logs it was is not known here.
             (DrawError::Replay(_), Other::Log(other)) => {
@@ -88,7 +90,7 @@ mod with_rerun {
 
     /// Reflies the log into a recording, whose first event says what the log is; returns its size and the
     /// status.
-    pub fn save(log: &Path, saved: &Path, window: &Window) -> Result<(u64, Status)> {
+    pub fn save(log: &Path, saved: &Output, window: &Window) -> Result<(u64, Status)> {
         let options = ReflyOptions { window: *window, across_versions: false };
         let mut flight =
             Reflight::open(log, &options).with_context(|| log.display().to_string())?;

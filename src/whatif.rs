@@ -1,13 +1,18 @@
 //! `tiltrotor whatif`.
 
+mod changes;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use changes::Changes;
 use engine::math::{atan2, min, sqrt};
 use engine::units::{degrees, knots};
-use engine::{Outputs, STEP_S, State};
-use logs::text::size;
-use replay::{NewLog, Source, Window, names_parent, parent, rewrite};
+use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
+use logs::output::Output;
+use logs::text::{at, size};
+use logs::{FlightReader, Setup, Tick};
+use replay::{NewLog, Source, Window, names_parent, parent, rewrite_in};
 
 use crate::identity;
 use crate::made::Made;
@@ -19,17 +24,13 @@ use crate::window::When;
 pub struct Args {
     /// The log whose inputs are flown
     log: PathBuf,
-    /// A number of the aircraft file, its unit in the key: rotors.gimbal.stop_deg=8 (several times)
-    #[arg(long, value_name = "KEY=VALUE", required_unless_present = "aircraft")]
-    set: Vec<String>,
-    /// Another aircraft file instead of the log's
-    #[arg(long, value_name = "FILE")]
-    aircraft: Option<PathBuf>,
+    #[command(flatten)]
+    wanted: Wanted,
     /// From there on: a time in s (12.5), a tick (3125t), or a marker (marker:1)
-    #[arg(long, value_name = "WHEN", default_value = "0t")]
+    #[arg(long, value_name = "WHEN", default_value = "0t", allow_hyphen_values = true)]
     from: When,
     /// End there
-    #[arg(long, value_name = "WHEN")]
+    #[arg(long, value_name = "WHEN", allow_hyphen_values = true)]
     until: Option<When>,
     /// The new log [default: LOG with -whatif]
     #[arg(long, value_name = "NEW.mcap")]
@@ -39,33 +40,37 @@ pub struct Args {
     force: bool,
 }
 
+/// The changes.
+#[derive(clap::Args)]
+#[group(required = true, multiple = true)]
+struct Wanted {
+    /// A number of the aircraft file, its unit in the key: rotors.gimbal.stop_deg=8 (several times)
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Another aircraft file instead of the log's
+    #[arg(long, value_name = "FILE")]
+    aircraft: Option<PathBuf>,
+    /// A number of the recorded world: wind_mps.x=5, gust_s=0, turbulence_mps=2 (several times)
+    #[arg(long, value_name = "KEY=VALUE")]
+    world: Vec<String>,
+    /// A failure, from there to the end: engine_left, scas_yaw (several times)
+    #[arg(long, value_name = "KEY")]
+    fail: Vec<String>,
+    /// A recorded failure taken away, from there to the end (several times)
+    #[arg(long, value_name = "KEY")]
+    mend: Vec<String>,
+    /// Fly nothing: list the keys with their values and units
+    #[arg(long, conflicts_with_all = ["set", "world", "fail", "mend", "until", "out", "force"])]
+    list: bool,
+}
+
 /// Flies what would have been, and says what became of it.
 pub fn run(args: &Args) -> Result<Status> {
-    let log = &args.log;
+    let (log, wanted) = (&args.log, &args.wanted);
     let name = || log.display().to_string();
     let source = Source::proven(log, "not flown").with_context(name)?;
     let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
-    let mut setup = reader.setup.clone();
-    let mut changes = Vec::new();
-    if let Some(path) = &args.aircraft {
-        setup.aircraft_toml = std::fs::read_to_string(path)
-            .with_context(|| format!("cannot read {}", path.display()))?;
-        aircraft::aircraft(&path.display().to_string(), &setup.aircraft_toml)?;
-        changes.push(format!("aircraft {}", path.display()));
-    }
-    for change in &args.set {
-        let Some((key, value)) = change.split_once('=').map(|(k, v)| (k.trim(), v.trim())) else {
-            bail!("--set {change}: expected KEY=VALUE");
-        };
-        let source = format!("what-if of {}", log.file_name().unwrap_or_default().display());
-        setup.aircraft_toml =
-            aircraft::set("aircraft.toml", &setup.aircraft_toml, key, value, &source)
-                .with_context(|| format!("--set {change}"))?;
-        // One at a time: the key that is wrong is the one that is told.
-        aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)
-            .with_context(|| format!("--set {change}"))?;
-        changes.push(format!("{key} = {value}"));
-    }
+    let (setup, mut said) = wanted.setup(log, &reader.setup)?;
     let from_tick = args.from.tick(log)?;
     let until_tick = args.until.map(|until| until.tick(log)).transpose()?;
     if until_tick.is_some_and(|until| until <= from_tick) {
@@ -75,27 +80,38 @@ pub fn run(args: &Args) -> Result<Status> {
     let clamped = args.from == When::Tick(0);
     let window = Window { from_tick: Some(from_tick), until_tick, clamped };
     window.apply(&mut reader).with_context(name)?;
+    if wanted.list {
+        return list(&mut reader, &setup).with_context(name);
+    }
+    let initial = reader.initial;
+    let changes = Changes::read(&wanted.world, &wanted.fail, &wanted.mend, initial.tick)?;
+    said.extend(changes.words.iter().cloned());
     let out = args.out.clone().unwrap_or_else(|| beside(log));
-    refuse_itself(log, &out)?;
     let identity = source
         .marks(names_parent(identity::identity(), log, &reader, "whatif"))
-        .with(parent::CHANGES, changes.join("; "));
+        .with(parent::CHANGES, said.join("; "));
+    let inputs: Vec<&Path> =
+        [Some(log), wanted.aircraft.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
+    let output = Output::beside(&out, args.force, &inputs)?;
     let new = NewLog {
-        out: &out,
-        force: args.force,
+        out: &output,
         setup: &setup,
         identity: &identity,
         timing: false,
         picture_of: Some(log),
     };
-    let initial = reader.initial;
+    let mut baseline = Baseline::of(&reader).with_context(name)?;
     let mut apart = Apart::default();
-    let written = rewrite(&mut reader, &initial, &new, |tick, state, outputs, _| {
-        apart.add(&tick.record.state, state, outputs);
-    })
+    let written = rewrite_in(
+        &mut reader,
+        &initial,
+        &new,
+        |world| changes.apply(world),
+        |tick, state, outputs, _| apart.add(baseline.fly(tick), state, outputs),
+    )
     .with_context(name)?;
-    let made = Made::of(&source, &out)?;
-    say!("{}: {}", out.display(), changes.join("; "));
+    let made = Made::of(&source, output)?;
+    say!("{}: {}", out.display(), said.join("; "));
     say!(
         "{:.3} s to {:.3} s of {} by its recorded inputs, {}, digest {:016x}",
         initial.time_s(),
@@ -104,24 +120,97 @@ pub fn run(args: &Args) -> Result<Status> {
         size(written.closed.bytes),
         written.closed.digest
     );
-    apart.say();
+    baseline.say();
+    apart.say(&baseline);
     say!("`tiltrotor diff {} {}` says more", log.display(), out.display());
     Ok(made.say(log))
+}
+
+impl Wanted {
+    /// The files to fly with, and what was changed of them in words.
+    fn setup(&self, log: &Path, recorded: &Setup) -> Result<(Setup, Vec<String>)> {
+        let (mut setup, mut said) = (recorded.clone(), Vec::new());
+        if let Some(path) = &self.aircraft {
+            setup.aircraft_toml = std::fs::read_to_string(path)
+                .with_context(|| format!("cannot read {}", path.display()))?;
+            aircraft::aircraft(&path.display().to_string(), &setup.aircraft_toml)?;
+            said.push(format!("aircraft {}", path.display()));
+        }
+        for change in &self.set {
+            let Some((key, value)) = change.split_once('=').map(|(k, v)| (k.trim(), v.trim()))
+            else {
+                bail!("--set {change}: expected KEY=VALUE");
+            };
+            let source = format!("what-if of {}", log.file_name().unwrap_or_default().display());
+            setup.aircraft_toml =
+                aircraft::set("aircraft.toml", &setup.aircraft_toml, key, value, &source)
+                    .with_context(|| format!("--set {change}"))?;
+            // One at a time: the key that is wrong is the one that is told.
+            aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)
+                .with_context(|| format!("--set {change}"))?;
+            said.push(format!("{key} = {value}"));
+        }
+        Ok((setup, said))
+    }
+}
+
+/// Prints every key that can be changed, with its value and unit.
+fn list(reader: &mut FlightReader, setup: &Setup) -> Result<Status> {
+    reader.next_tick()?;
+    changes::list(reader.tick.inputs.world);
+    say!("--set KEY=VALUE, the unit in the key");
+    for (key, value) in aircraft::values("aircraft.toml", &setup.aircraft_toml)? {
+        say!("  {key} = {value}");
+    }
+    Ok(Status::Done)
+}
+
+/// The recorded inputs flown unchanged beside what is changed: without it nobody could tell what the
+/// change did from what another program does.
+struct Baseline {
+    aircraft: Aircraft,
+    state: State,
+    /// The first tick that is not what was recorded.
+    differs: Option<u64>,
+}
+
+impl Baseline {
+    /// From where the reader stands.
+    fn of(reader: &FlightReader) -> Result<Self> {
+        let aircraft = replay::flown(&reader.setup)?.aircraft;
+        let differs = (!reader.intact).then_some(reader.initial.tick);
+        Ok(Self { aircraft, state: reader.initial, differs })
+    }
+
+    /// Flies the tick as it was recorded.
+    fn fly(&mut self, tick: &Tick) -> &State {
+        let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
+        self.state = step(&self.aircraft, &self.state, &inputs).0;
+        if !tick.chained || tick.record.state != self.state {
+            self.differs.get_or_insert(self.state.tick);
+        }
+        &self.state
+    }
+
+    fn say(&self) {
+        let Some(tick) = self.differs else {
+            say!(
+                "baseline: flown unchanged, the recorded inputs give the recorded states, to the bit"
+            );
+            return;
+        };
+        say!(
+            "baseline: flown unchanged, the recorded inputs do not give the recorded states from {} on: \
+             what differs from the recording is by the program (or an altered log) and by the change; \
+             `tiltrotor verify` says more",
+            at(tick)
+        );
+    }
 }
 
 fn beside(log: &Path) -> PathBuf {
     let stem = log.file_stem().unwrap_or_default().display().to_string();
     log.with_file_name(format!("{stem}-whatif.mcap"))
-}
-
-/// A log is not to be written over while it is read.
-pub fn refuse_itself(log: &Path, out: &Path) -> Result<()> {
-    if let (Ok(log), Ok(out)) = (log.canonicalize(), out.canonicalize())
-        && log == out
-    {
-        bail!("{}: the new log cannot be the old one", log.display());
-    }
-    Ok(())
 }
 
 /// How far the two flights came apart.
@@ -136,12 +225,12 @@ struct Apart {
 }
 
 impl Apart {
-    fn add(&mut self, recorded: &State, state: &State, outputs: &Outputs) {
+    fn add(&mut self, unchanged: &State, state: &State, outputs: &Outputs) {
         self.last_tick = state.tick;
-        if self.first_tick.is_none() && recorded != state {
+        if self.first_tick.is_none() && unchanged != state {
             self.first_tick = Some(state.tick);
         }
-        let (was, is) = (&recorded.plant, &state.plant);
+        let (was, is) = (&unchanged.plant, &state.plant);
         self.distance_m = (is.position_m - was.position_m).norm();
         let (a, b) = (was.attitude, is.attitude);
         let cosine = min((a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z).abs(), 1.0);
@@ -153,10 +242,20 @@ impl Apart {
         }
     }
 
-    fn say(&self) {
-        match self.first_tick {
-            None => say!("it makes no difference: every state is the recorded one, to the bit"),
-            Some(tick) => {
+    fn say(&self, baseline: &Baseline) {
+        match (self.first_tick, baseline.differs) {
+            (None, None) => {
+                say!("it makes no difference: every state is the recorded one, to the bit");
+            }
+            (None, Some(_)) => {
+                say!("the change makes no difference: every state is the baseline's");
+            }
+            (Some(tick), differs) => {
+                if differs.is_some() {
+                    say!(
+                        "what follows is the change alone, against the baseline as this program flies it"
+                    );
+                }
                 say!("apart from {:.3} s on; at the end", tick as f64 * STEP_S);
                 say!("  position       {:.3} m", self.distance_m);
                 say!("  attitude       {:.3} deg", self.attitude_deg);

@@ -11,16 +11,17 @@ use replay::Window;
 #[derive(clap::Args, Clone, Debug, Default)]
 pub struct WindowArgs {
     /// Begin there: a time in s (12.5), a tick (3125t), or a marker (marker:1)
-    #[arg(long, value_name = "WHEN")]
+    #[arg(long, value_name = "WHEN", allow_hyphen_values = true)]
     pub from: Option<When>,
     /// End there
-    #[arg(long, value_name = "WHEN")]
+    #[arg(long, value_name = "WHEN", allow_hyphen_values = true)]
     until: Option<When>,
     /// Before and after that, --window seconds
-    #[arg(long, value_name = "WHEN", conflicts_with_all = ["from", "until"])]
+    #[arg(long, value_name = "WHEN", allow_hyphen_values = true, conflicts_with_all = ["from", "until"])]
     around: Option<When>,
     /// With --around: so many seconds before, and as many after
     #[arg(long, value_name = "SECONDS", requires = "around", default_value_t = 10.0)]
+    #[arg(value_parser = crate::numbers::duration_s, allow_negative_numbers = true)]
     window: f64,
 }
 
@@ -66,13 +67,16 @@ impl When {
 }
 
 impl WindowArgs {
+    /// Whether no part is named.
+    pub fn is_whole(&self) -> bool {
+        self.from.is_none() && self.until.is_none() && self.around.is_none()
+    }
+
     /// The window in that log.
     pub fn of(&self, log: &Path) -> Result<Window> {
         let tick = |moment: Option<When>| moment.map(|moment| moment.tick(log)).transpose();
         if let Some(around) = tick(self.around)? {
-            let Some(room) = ticks(self.window).filter(|&room| room > 0) else {
-                bail!("--window {}: expected {STEP_S} s (one tick) or more", self.window);
-            };
+            let Some(room) = ticks(self.window) else { bail!("--window {}", self.window) };
             return Ok(Window {
                 from_tick: Some(around.saturating_sub(room)),
                 until_tick: Some(around.saturating_add(room)),

@@ -11,9 +11,10 @@ if [ -z "$tiltrotor" ]; then
 fi
 
 venv=target/venv-cdr
-if [ ! -x "$venv/bin/python" ] || ! "$venv/bin/python" -c "import mcap_ros2, numpy"; then
+if [ ! -x "$venv/bin/python" ] || ! "$venv/bin/python" -c "import lz4, mcap_ros2, numpy, rosbags, zstandard"; then
     python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet mcap==1.6.0 mcap-ros2-support==0.6.0 numpy==2.4.6
+    "$venv/bin/pip" install --quiet mcap==1.6.0 mcap-ros2-support==0.6.0 numpy==2.4.6 rosbags==0.11.9 \
+        lz4==4.4.5 zstandard==0.25.0
 fi
 
 work=$(mktemp -d)
@@ -38,3 +39,12 @@ assert messages == expected > 0, (messages, expected)
 assert facts["tiltrotor"]["recovered_from"] == "cut.mcap", facts
 print(f"recovered: {messages} messages, all read")
 PYTHON
+
+# rosbags decodes every channel by the ROS 2 package that is generated from the log's own definitions.
+"$tiltrotor" fly --pilot hover --fast --duration 3 --out "$work/hover.mcap"
+"$venv/bin/python" docs/ros2/generate.py "$work/hover.mcap" "$work"
+"$venv/bin/python" tests/rosbags_cdr.py "$work/hover.mcap" "$tiltrotor" "$work/tiltrotor_msgs"
+
+# Logs that other tools wrote anew: the same flight, or refused for the same true reason by every verb.
+mkdir "$work/tools"
+"$venv/bin/python" tests/tools.py "$work/hover.mcap" "$tiltrotor" "$work/tools"

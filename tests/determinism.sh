@@ -21,7 +21,7 @@ build() { # NAME, cargo's options...
 
 echo "building: release, debug, release for this CPU with link-time optimisation"
 build headless --release
-build headless
+build headless --config profile.dev.package.engine.opt-level=0
 RUSTFLAGS="-C target-cpu=native" CARGO_PROFILE_RELEASE_LTO=fat build native --release
 release=target/headless/release/tiltrotor
 debug=target/headless/debug/tiltrotor

@@ -438,8 +438,9 @@ fn no_script_breaks_its_reader_and_what_it_accepts_can_be_played() {
                 let seen = Outputs { tick, ..Default::default() };
                 events.clear();
                 let (events, world) = (&mut events, &mut world);
-                let mut phase = (0, "");
-                let mut reach = Reach { tick, events, world, phase: &mut phase, done: &mut done };
+                let (mut phase, mut gave_up) = ((0, ""), None);
+                let (phase, done, gave_up) = (&mut phase, &mut done, &mut gave_up);
+                let mut reach = Reach { tick, events, world, phase, done, gave_up };
                 script.act(&seen, &mut reach);
             }
         },

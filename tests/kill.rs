@@ -232,7 +232,10 @@ fn a_terminated_flight_lands() {
         let output = flight.program.wait_with_output().expect("the flight ends");
         understood("fly", &output).ends(OK).says("flown ").says("digest ");
         verify(&log).ends(OK).says("exact: all ");
-        tiltrotor(&["log", "info", text(&log)]).ends(OK).says("ended by a signal").says("closed");
+        tiltrotor(&["log", "info", text(&log)])
+            .ends(OK)
+            .says(&format!("ended by a signal: SIG{signal}"))
+            .says("closed");
     }
 }
 

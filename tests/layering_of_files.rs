@@ -67,7 +67,9 @@ const SHARED: &[&str] = &[
     "inertia",
     "inputs",
     "isa",
+    "lanes",
     "listing",
+    "mast",
     "math",
     "motion",
     "pair",
@@ -91,7 +93,7 @@ fn engine() -> Graph {
 fn block_of(module: &Module) -> Option<&'static str> {
     let name = module.join("::");
     let holds = |part: &&str| name == **part || name.starts_with(&format!("{part}::"));
-    BLOCKS.iter().find(|(_, parts)| parts.iter().any(|part| holds(&part))).map(|(block, _)| *block)
+    BLOCKS.iter().find(|(_, parts)| parts.iter().any(holds)).map(|(block, _)| *block)
 }
 
 #[test]

@@ -274,7 +274,7 @@ fn what_cannot_be_recovered_is_refused_in_one_line_and_nothing_is_written() {
     fs::write(&cut, &whole[..whole.len() / 2]).expect("a file");
     tiltrotor(&["log", "recover", text(&cut), "--force", "--out", text(&cut)])
         .refused()
-        .says("it cannot be written over itself");
+        .says("from which it would be made");
     assert_eq!(fs::read(&cut).expect("still there").len(), whole.len() / 2);
     fs::write(&fixed, "precious").expect("a file");
     recover(&cut, &fixed).refused().says("exists").says("--force");

@@ -88,7 +88,8 @@ fn what_a_script_does_is_told_by_log_info() {
         .ends(OK)
         .says("2.004 s  marker 1")
         .says("3.000 s  failed: left engine, SCAS yaw")
-        .says("3.500 s  failed: left engine\n")
+        .says("2.000 s  wind: from ")
+        .says("3.500 s  mended: SCAS yaw; still failed: left engine\n")
         .says("3.500 s  paused")
         .says("3.800 s  goes on")
         .says("4.004 s  marker 2")
@@ -108,6 +109,7 @@ fn the_events_of_a_script_are_recorded_at_their_ticks() {
     assert_eq!(
         told,
         [
+            (tick(2000), Happening::Wind, 1),
             // A marker is counted by the step that got it.
             (tick(2000) + 1, Happening::Marker, 1),
             (tick(3000), Happening::Failures, both.bits()),

@@ -71,6 +71,7 @@ pub fn set(
     let unknown = || {
         let mut keys = Vec::new();
         leaves("", document.get_ref(), &mut keys);
+        let keys: Vec<&str> = keys.iter().map(|(key, _)| key.as_str()).collect();
         EditError::UnknownKey { key: key.into(), near: near(key, &keys) }
     };
     let mut table = document.get_ref();
@@ -129,20 +130,44 @@ fn is_quantity(table: &DeTable<'_>) -> bool {
     table.get("value").is_some()
 }
 
-/// Every key that has a value.
-fn leaves(path: &str, table: &DeTable<'_>, keys: &mut Vec<String>) {
+/// Every key that [`set`] changes, with its value as written, in the order of the alphabet.
+///
+/// # Errors
+/// When the text is not TOML.
+pub fn values(file_name: &str, text: &str) -> Result<Vec<(String, String)>, ConfigError> {
+    crate::provenance(file_name, text)?;
+    let Ok(document) = DeTable::parse(text) else { return Ok(Vec::new()) };
+    let mut spans = Vec::new();
+    leaves("", document.get_ref(), &mut spans);
+    let one_line = |span: std::ops::Range<usize>| {
+        text.get(span).map(|value| value.split_whitespace().collect::<Vec<_>>())
+    };
+    let mut values: Vec<_> = spans
+        .into_iter()
+        .filter_map(|(key, span)| Some((key, one_line(span)?.join(" "))))
+        .collect();
+    values.sort();
+    Ok(values)
+}
+
+/// Every key that has a value, and where that is.
+fn leaves(path: &str, table: &DeTable<'_>, into: &mut Vec<(String, std::ops::Range<usize>)>) {
     for (key, value) in table.iter() {
         let name = key.get_ref();
         let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
         match value.get_ref() {
-            DeValue::Table(below) if !is_quantity(below) => leaves(&path, below, keys),
-            _ => keys.push(path),
+            DeValue::Table(below) if !is_quantity(below) => leaves(&path, below, into),
+            DeValue::Table(quantity) => {
+                let number = quantity.get("value").map_or(value.span(), Spanned::span);
+                into.push((path, number));
+            }
+            _ => into.push((path, value.span())),
         }
     }
 }
 
 /// Keys that look like one that is not there: by their whole, or by their last word.
-fn near(key: &str, keys: &[String]) -> Vec<String> {
+pub fn near(key: &str, keys: &[&str]) -> Vec<String> {
     let last = |key: &str| key.rsplit('.').next().unwrap_or_default().to_string();
     let mut ranked: Vec<_> = keys
         .iter()
@@ -154,7 +179,7 @@ fn near(key: &str, keys: &[String]) -> Vec<String> {
         .filter(|(likeness, _)| *likeness >= LIKENESS_MIN)
         .collect();
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    ranked.into_iter().take(SUGGESTIONS).map(|(_, known)| known.clone()).collect()
+    ranked.into_iter().take(SUGGESTIONS).map(|(_, known)| (*known).to_string()).collect()
 }
 
 #[cfg(test)]
@@ -193,6 +218,18 @@ mod tests {
         assert_eq!(near("pedal_in")[0], "fcc.travel.pedal_in");
         assert_eq!(near("quux_frobnicated"), [""; 0]);
         assert!(matches!(set_ours("fcc.travel", "1"), Err(EditError::Table { .. })));
+    }
+
+    #[test]
+    fn every_value_that_is_told_can_be_set() {
+        let values = values("aircraft.toml", crate::XV15).expect("TOML");
+        assert!(values.len() > 100, "{}", values.len());
+        let told =
+            |key: &str| values.iter().find(|(known, _)| known == key).map(|(_, value)| &**value);
+        assert_eq!(told("rotors.mast_length_ft"), Some("4.667"));
+        for (key, value) in &values {
+            set_ours(key, value).unwrap_or_else(|error| panic!("{key} = {value}: {error}"));
+        }
     }
 
     #[test]

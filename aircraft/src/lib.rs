@@ -20,7 +20,7 @@ mod tree;
 pub mod units;
 mod urdf;
 
-pub use edit::{EditError, set};
+pub use edit::{EditError, near, set, values};
 pub use error::{ConfigError, Problem};
 pub use provenance::{Provenance, Trust};
 pub use urdf::urdf;

@@ -51,12 +51,12 @@ enum Kind {
 }
 
 const RECORDED: [Recorded; 6] = [
-    Recorded { kind: Kind::Flown, first: 0x2fe7_c706_69b8_61f5, all: 0xb626_dce3_606b_0f70 },
-    Recorded { kind: Kind::Envelope, first: 0x295f_8faf_9778_1c1a, all: 0xb9d5_4015_48e6_6ee8 },
-    Recorded { kind: Kind::Stalled, first: 0x218e_109b_8ffd_2b55, all: 0xef77_79d0_a973_9098 },
-    Recorded { kind: Kind::Zeros, first: 0x6016_3f98_09ad_8120, all: 0x08af_65d7_a7cd_6efa },
-    Recorded { kind: Kind::Beyond, first: 0x30a1_fe86_5a0d_de4d, all: 0xf5d4_6f86_f7ab_aa45 },
-    Recorded { kind: Kind::Broken, first: 0x1f0d_b5e1_7882_c7b6, all: 0x2f99_7848_9ea0_87b3 },
+    Recorded { kind: Kind::Flown, first: 0x5112_8d75_d2f8_dd91, all: 0xd6d0_a4e6_ca95_ce02 },
+    Recorded { kind: Kind::Envelope, first: 0x9bbd_aaac_2269_78a1, all: 0xf04f_ac1a_5386_ca09 },
+    Recorded { kind: Kind::Stalled, first: 0x9ea8_1991_dfc0_bcca, all: 0x1383_0d2e_d2ed_ce95 },
+    Recorded { kind: Kind::Zeros, first: 0xf171_1245_541a_6263, all: 0x0dda_4af6_1aee_52aa },
+    Recorded { kind: Kind::Beyond, first: 0x8669_c876_00a9_ef80, all: 0x018b_00a4_2d7c_742d },
+    Recorded { kind: Kind::Broken, first: 0xe02e_33c5_10ad_a01b, all: 0xb01a_a0c3_ee78_e55a },
 ];
 
 /// The bits of what has been seen so far (FNV-1a, by words of eight bytes).

@@ -76,7 +76,7 @@ fn cockpit_maps_and_scenario_load() {
     }
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
     close(start.fuel_kg, 1475.0 * 0.453_592_37);
-    close(start.origin.latitude_rad, 19.7203 * DEG);
+    close(start.origin.latitude_rad, 19.721_359 * DEG);
 }
 
 // ----------------------------------------------------------------------------- whole aircraft

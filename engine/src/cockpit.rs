@@ -376,9 +376,14 @@ mod tests {
         let told = |binding: &AxisBinding, value: i64| {
             position(binding, &DeviceEvent { value, raw_max: 1023, ..DeviceEvent::default() })
         };
-        assert_eq!([told(&plain, 0), told(&plain, 1023)], [-1.0, 1.0]);
-        assert_eq!([told(&mapped, 0), told(&mapped, 200)], [-1.0, 1.0]);
-        assert_eq!([at(&plain, -32767), at(&plain, 32767)], [-1.0, 1.0]);
+        for (low, high) in [
+            (told(&plain, 0), told(&plain, 1023)),
+            (told(&mapped, 0), told(&mapped, 200)),
+            (at(&plain, -32767), at(&plain, 32767)),
+        ] {
+            assert_eq!((low + 1.0).to_bits(), 0, "{low}");
+            assert_eq!((high - 1.0).to_bits(), 0, "{high}");
+        }
     }
 
     #[test]

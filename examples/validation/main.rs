@@ -58,7 +58,7 @@ fn main() -> std::io::Result<()> {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        fs::write(&path, text)?;
+        logs::output::write(&path, &text, &[]).map_err(std::io::Error::other)?;
         println!("{}", path.display());
     }
     Ok(())

@@ -25,6 +25,20 @@ pub enum LogError {
         /// Which.
         path: String,
     },
+    /// The file is being written by a flight.
+    #[error("{path} is being flown: its log is still being written; name another file")]
+    InUse {
+        /// Which.
+        path: String,
+    },
+    /// The file would be written over what it is made from.
+    #[error("{path} is {input}, from which it would be made; name another file")]
+    Input {
+        /// The file to be written.
+        path: String,
+        /// What is read for it.
+        input: String,
+    },
     /// The file is something else.
     #[error("not a flight log: {0}")]
     NotAFlight(String),

@@ -18,6 +18,7 @@ pub mod export;
 mod level;
 mod narrator;
 mod open;
+pub mod output;
 mod reader;
 pub mod records;
 mod recover;
@@ -28,7 +29,7 @@ mod writer;
 
 pub use codec::{cdr, evolution, fields, layout, schema, units};
 pub use error::LogError;
-pub use narrator::Narrator;
+pub use narrator::{Narrator, Observed};
 pub use open::OpenOptions;
 pub use reader::{Ending, FlightReader, Message, Messages, Remade, Tick, closing, marker, open};
 pub use recover::{Recovery, recover};

@@ -1,8 +1,16 @@
-//! Tells in events what the numbers say: markers, failures, devices, validity, wheels.
+//! Tells in events what the numbers say: markers, failures, weather, devices, fuel, validity, wheels.
+
+mod observed;
+mod validity;
+mod wheels;
 
 use engine::State;
-use engine::inputs::{DeviceEvent, EventKind, Failures};
-use engine::outputs::{Outputs, Validity};
+use engine::envelope::Airframe;
+use engine::inputs::{DeviceEvent, EventKind, Failures, World};
+use engine::math::atan2;
+use engine::units::{degrees, knots};
+
+pub use observed::Observed;
 
 use crate::records::{Happening, InputsRecord};
 use crate::{FlightWriter, LogError};
@@ -10,21 +18,24 @@ use crate::{FlightWriter, LogError};
 /// What was told last.
 pub struct Narrator {
     markers: u64,
-    failures: Failures,
-    validity: Validity,
-    paused: u64,
-    weight_on_wheels: u64,
+    world: World,
+    /// Whether the gust of that world has been told.
+    gust_told: bool,
+    has_fuel: bool,
+    validity: validity::Told,
+    wheels: wheels::Told,
 }
 
 impl Narrator {
     /// Nothing has happened yet.
-    pub fn new(initial: &State) -> Self {
+    pub fn new(initial: &State, airframe: &Airframe) -> Self {
         Self {
             markers: initial.cockpit.markers,
-            failures: Failures::empty(),
-            validity: Validity::empty(),
-            paused: 0,
-            weight_on_wheels: initial.plant.weight_on_wheels,
+            world: World::default(),
+            gust_told: false,
+            has_fuel: initial.plant.fuel_kg > 0.0,
+            validity: validity::Told::default(),
+            wheels: wheels::Told::new(initial, airframe),
         }
     }
 
@@ -47,7 +58,7 @@ impl Narrator {
             | EventKind::AxisPosition
             | EventKind::ButtonPosition => return Ok(()),
         };
-        writer.happened(event.tick, what, event.device, &words)
+        writer.happened(event.tick, what, event.device, [0.0; 2], &words)
     }
 
     /// The world of a tick, after it was written.
@@ -59,52 +70,113 @@ impl Narrator {
         writer: &mut FlightWriter,
         inputs: &InputsRecord,
     ) -> Result<(), LogError> {
-        let world = &inputs.world;
-        if world.failures != self.failures {
-            self.failures = world.failures;
-            let (what, words) = (Happening::Failures, format!("failed: {}", world.failures));
-            writer.happened(inputs.tick, what, world.failures.bits(), &words)?;
+        let (was, now, tick) = (self.world, inputs.world, inputs.tick);
+        self.world = now;
+        if now.failures != was.failures {
+            let words = failures(was.failures, now.failures);
+            writer.happened(tick, Happening::Failures, now.failures.bits(), [0.0; 2], &words)?;
         }
-        if world.paused != self.paused {
-            self.paused = world.paused;
-            let words = if world.paused != 0 { "paused" } else { "goes on" };
-            writer.happened(inputs.tick, Happening::Paused, world.paused, words)?;
+        if now.paused != was.paused {
+            let words = if now.paused != 0 { "paused" } else { "goes on" };
+            writer.happened(tick, Happening::Paused, now.paused, [0.0; 2], words)?;
+        }
+        self.weather(writer, tick, &was)
+    }
+
+    /// Wind, gust and turbulence.
+    fn weather(
+        &mut self,
+        writer: &mut FlightWriter,
+        tick: u64,
+        was: &World,
+    ) -> Result<(), LogError> {
+        let now = self.world;
+        if (now.wind_mps, now.wind_roughness_m) != (was.wind_mps, was.wind_roughness_m) {
+            let (wind, words) = wind(&now);
+            let blows = u64::from(wind[0] > 0.0);
+            writer.happened(tick, Happening::Wind, blows, wind, &words)?;
+        }
+        let same_gust = (now.gust_mps, now.gust_s, now.gust_start_tick)
+            == (was.gust_mps, was.gust_s, was.gust_start_tick);
+        self.gust_told &= same_gust;
+        let begun = now.gust_s > 0.0 && now.gust_mps.norm() > 0.0 && tick >= now.gust_start_tick;
+        if begun && !self.gust_told {
+            self.gust_told = true;
+            let v = now.gust_mps;
+            let words = format!(
+                "gust begins: {:.1} m/s north, {:.1} m/s east, {:.1} m/s up, over {:.1} s",
+                v.x, v.y, -v.z, now.gust_s
+            );
+            let measured = [v.norm(), now.gust_s];
+            writer.happened(tick, Happening::Gust, now.gust_start_tick, measured, &words)?;
+        }
+        if now.turbulence_mps.to_bits() != was.turbulence_mps.to_bits() {
+            let words = format!("turbulence: {:.1} m/s, vertical intensity", now.turbulence_mps);
+            let rough = u64::from(now.turbulence_mps > 0.0);
+            let measured = [now.turbulence_mps, 0.0];
+            writer.happened(tick, Happening::Turbulence, rough, measured, &words)?;
         }
         Ok(())
     }
 
-    /// The state after a tick, after it was written.
+    /// The state after a tick, after it was written, and what was seen of it.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn state(&mut self, writer: &mut FlightWriter, state: &State) -> Result<(), LogError> {
+    pub fn state(
+        &mut self,
+        writer: &mut FlightWriter,
+        state: &State,
+        seen: &Observed,
+    ) -> Result<(), LogError> {
         if state.cockpit.markers != self.markers {
             self.markers = state.cockpit.markers;
             let words = format!("marker {}", self.markers);
-            writer.happened(state.tick, Happening::Marker, self.markers, &words)?;
+            writer.happened(state.tick, Happening::Marker, self.markers, [0.0; 2], &words)?;
         }
-        if state.plant.weight_on_wheels != self.weight_on_wheels {
-            self.weight_on_wheels = state.plant.weight_on_wheels;
-            let words = if self.weight_on_wheels != 0 { "touchdown" } else { "lift-off" };
-            writer.happened(state.tick, Happening::WeightOnWheels, self.weight_on_wheels, words)?;
+        let has_fuel = state.plant.fuel_kg > 0.0;
+        if !has_fuel && self.has_fuel {
+            let out = Failures::ENGINES - self.world.failures;
+            let words = format!("fuel exhausted; out by it: {out}");
+            writer.happened(state.tick, Happening::Fuel, out.bits(), [0.0; 2], &words)?;
         }
-        Ok(())
+        // Nobody fills the tanks in flight; a drop that comes back by rounding is none.
+        self.has_fuel &= has_fuel;
+        self.wheels.look(writer, state, seen)?;
+        let Some(words) = self.validity.look(state.tick, seen.validity) else { return Ok(()) };
+        let flags = self.validity.flags.bits();
+        writer.happened(state.tick, Happening::Validity, flags, [0.0; 2], &words)
     }
+}
 
-    /// What can be observed after a tick, after it was written.
-    ///
-    /// # Errors
-    /// When the file cannot be written.
-    pub fn outputs(
-        &mut self,
-        writer: &mut FlightWriter,
-        outputs: &Outputs,
-    ) -> Result<(), LogError> {
-        if outputs.validity != self.validity {
-            self.validity = outputs.validity;
-            let words = format!("outside the model's validity: {}", self.validity);
-            writer.happened(outputs.tick, Happening::Validity, self.validity.bits(), &words)?;
-        }
-        Ok(())
+/// What failed and what was mended.
+fn failures(was: Failures, now: Failures) -> String {
+    let (failed, mended) = (now - was, was - now);
+    let mut words = Vec::new();
+    if !failed.is_empty() {
+        words.push(format!("failed: {failed}"));
     }
+    if !mended.is_empty() {
+        words.push(format!("mended: {mended}"));
+    }
+    let still = now & was;
+    if !still.is_empty() {
+        words.push(format!("still failed: {still}"));
+    }
+    words.join("; ")
+}
+
+/// Speed of the wind in m/s and where it comes from in degrees, and both in words.
+fn wind(world: &World) -> ([f64; 2], String) {
+    let v = world.wind_mps;
+    let speed_mps = engine::math::sqrt(v.x * v.x + v.y * v.y);
+    let from_deg = degrees(atan2(-v.y, -v.x)).rem_euclid(360.0);
+    if v.norm() <= 0.0 {
+        return ([0.0; 2], "wind: calm".into());
+    }
+    let mut words = format!("wind: from {from_deg:03.0} deg, {:.1} kt", knots(speed_mps));
+    if v.z != 0.0 {
+        words.push_str(&format!(", {:.1} m/s up", -v.z));
+    }
+    ([v.norm(), from_deg], words)
 }

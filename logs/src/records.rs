@@ -164,13 +164,13 @@ engine::enumeration! {
         Paused = 6 {
             key: "paused", value: "1 paused, 0 going on", levels: Levels::always(Level::Info),
         }
-        /// The main wheels took weight or lost it.
+        /// The main wheels took weight or lost it; measured are sink and speed, m/s.
         WeightOnWheels = 7 {
             key: "weight_on_wheels", value: "1 touchdown, 0 lift-off", levels: Levels::always(Level::Info),
         }
         /// The flight was ended.
         Landed = 8 {
-            key: "landed", value: "0 as planned, 1 by the crew, 2 by a signal", levels: Levels::always(Level::Info),
+            key: "landed", value: "0 as planned, 1 by the crew, 2 by a signal, 3 a pilot gave up", levels: Levels::always(Level::Info),
         }
         /// A pilot model went on to its next phase.
         Phase = 9 {
@@ -191,6 +191,32 @@ engine::enumeration! {
         /// The kernel lost events of a device.
         EventsLost = 13 {
             key: "events_lost", value: "the device's number", levels: Levels::always(Level::Warn),
+        }
+        /// The aircraft hit the ground harder than it is designed for; measured are sink and speed, m/s.
+        Impact = 14 {
+            key: "impact", value: "0 beyond the gear's design, 1 beyond its reserve, 2 the hull",
+            levels: Levels::with_zero(Level::Warn, Level::Error),
+        }
+        /// The steady wind was set; measured are its speed, m/s, and whence it comes, deg.
+        Wind = 15 {
+            key: "wind", value: "1 wind, 0 calm", levels: Levels::always(Level::Info),
+        }
+        /// A gust begins; measured are its amplitude, m/s, and its duration, s.
+        Gust = 16 {
+            key: "gust", value: "the tick at which it begins", levels: Levels::always(Level::Info),
+        }
+        /// The turbulence was set; measured is its vertical intensity, m/s.
+        Turbulence = 17 {
+            key: "turbulence", value: "1 rough, 0 still air", levels: Levels::always(Level::Info),
+        }
+        /// The tanks are empty, and the engines stop.
+        Fuel = 18 {
+            key: "fuel", value: "the engines that go out by it, as failures have them",
+            levels: Levels::always(Level::Warn),
+        }
+        /// A pilot model gave up its task.
+        GaveUp = 19 {
+            key: "gave_up", value: "number of the phase", levels: Levels::always(Level::Warn),
         }
     }
 }

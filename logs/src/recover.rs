@@ -8,6 +8,7 @@ use std::path::Path;
 use crate::LogError;
 use crate::channels::{Chain, Channel};
 use crate::open::OpenOptions;
+use crate::output::Output;
 use crate::reader::{Ending, FlightReader, Messages, open};
 use crate::records::{STATE, time_ns};
 use crate::setup::Identity;
@@ -47,11 +48,7 @@ impl Recovery {
 /// When not even the first state can be trusted, when the log is whole, or when `out` exists and
 /// `force` is not set, or cannot be written.
 pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogError> {
-    if let (Ok(from), Ok(to)) = (broken.canonicalize(), out.canonicalize())
-        && from == to
-    {
-        return Err(LogError::NotRecoverable("it cannot be written over itself".into()));
-    }
+    let output = Output::beside(out, force, &[broken])?;
     let mut recovery = survey(broken)?;
     let mut reader = open(broken, OpenOptions::default())?;
     let parent = name_of(broken, &reader);
@@ -63,16 +60,10 @@ pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogEr
         .with(Recovery::PARENT, parent)
         .with(Recovery::TICK, recovery.tick.to_string())
         .with(Recovery::REASON, &*recovery.reason);
-    let mut writer = FlightWriter::begin(out, &reader.setup, &identity, force)?;
-    let copied = copy(broken, &mut writer, &mut recovery);
-    match copied.and_then(|()| writer.finish()) {
-        Ok(closed) => recovery.bytes_written = closed.bytes,
-        Err(error) => {
-            // Half a recovery is no log.
-            let _ = std::fs::remove_file(out);
-            return Err(error);
-        }
-    }
+    let mut writer = FlightWriter::begin(output.file()?, &reader.setup, &identity)?;
+    copy(broken, &mut writer, &mut recovery)?;
+    recovery.bytes_written = writer.finish()?.bytes;
+    output.finish()?;
     Ok(recovery)
 }
 

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufWriter, Seek};
-use std::path::Path;
 
 use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
@@ -15,7 +14,7 @@ use serde::Serialize;
 
 use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
 use crate::container::checksums::{RollCall, seal};
-use crate::container::{RECORD_BYTES_MAX, create, stamped};
+use crate::container::{RECORD_BYTES_MAX, stamped};
 use crate::devices::DeviceIdentity;
 use crate::reader::Message;
 use crate::records::{
@@ -57,20 +56,20 @@ pub struct Closed {
 }
 
 impl FlightWriter {
-    /// Starts a log at `path` with all that is needed to refly it, on disk before this returns.
+    /// Starts a log in an empty file with all that is needed to refly it, handed to the system before
+    /// this returns.
     ///
     /// # Errors
-    /// When the file exists and `force` is not set, or cannot be written.
+    /// When the file cannot be written.
     pub fn create(
-        path: &Path,
+        file: File,
         setup: &Setup,
         identity: &Identity,
         aircraft: &Aircraft,
         robot_description: &str,
         initial: &State,
-        force: bool,
     ) -> Result<Self, LogError> {
-        let mut writer = Self::begin(path, setup, identity, force)?;
+        let mut writer = Self::begin(file, setup, identity)?;
         writer.shape = view::Shape::of(aircraft);
         let text = cdr::encode_view(&view::Text { data: robot_description })?;
         writer.put(ChannelId::RobotDescription, initial.tick, &text)?;
@@ -85,12 +84,7 @@ impl FlightWriter {
     }
 
     /// Starts a log that holds no message yet.
-    pub(crate) fn begin(
-        path: &Path,
-        setup: &Setup,
-        identity: &Identity,
-        force: bool,
-    ) -> Result<Self, LogError> {
+    pub(crate) fn begin(file: File, setup: &Setup, identity: &Identity) -> Result<Self, LogError> {
         // What cannot be read back is not written.
         if let Some((name, text)) =
             setup.files().iter().find(|(_, text)| text.len() > TEXT_BYTES_MAX)
@@ -98,7 +92,6 @@ impl FlightWriter {
             let (bytes, most) = (text.len(), TEXT_BYTES_MAX);
             return Err(LogError::Encode(format!("{name}: {bytes} bytes, at most {most} fit")));
         }
-        let file = create(path, force)?;
         let mut mcap = WriteOptions::new()
             .compression(Some(Compression::Lz4))
             .profile("ros2")
@@ -191,13 +184,16 @@ impl FlightWriter {
         tick: u64,
         what: Happening,
         value: u64,
+        measured: [f64; 2],
         words: &str,
     ) -> Result<(), LogError> {
         let level = what.facts().levels.of(value);
-        let record = EventRecord { tick, kind: what as u64, value, measured: [0.0; 2] };
-        self.record(ChannelId::Events, tick, &record)?;
+        let record = EventRecord { tick, kind: what as u64, value, measured };
+        // What is found out later is told later: log times never go back.
+        let told_tick = tick.max(self.last_tick);
+        self.record(ChannelId::Events, told_tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;
-        self.put(ChannelId::Log, tick, &message)
+        self.put(ChannelId::Log, told_tick, &message)
     }
 
     /// A message of another log as it stands there; `false` when no channel of ours is called so.

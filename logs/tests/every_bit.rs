@@ -109,9 +109,9 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
     let identity = Identity::new().with("commit", "0123456789").with("dirty", "no");
     let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15");
     let mut state = State::default();
+    let new = fs::File::create_new(&path).expect("a file");
     let mut writer =
-        FlightWriter::create(&path, &setup, &identity, &aircraft, "<robot/>", &state, false)
-            .expect("a log");
+        FlightWriter::create(new, &setup, &identity, &aircraft, "<robot/>", &state).expect("a log");
     let stick = DeviceIdentity { vendor: 0x44f, name: "a stick".into(), ..Default::default() };
     writer.device(&stick).expect("written");
     for tick in 0..TICKS {
@@ -133,7 +133,7 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
         writer
             .timing(&TimingRecord { tick, step_ns: 9_000, ..Default::default() })
             .expect("written");
-        writer.happened(tick, Happening::Marker, 1, "marker 1").expect("written");
+        writer.happened(tick, Happening::Marker, 1, [0.0; 2], "marker 1").expect("written");
         let outputs = Outputs { tick: 50 * tick, ..Default::default() };
         writer.view(&outputs, state.plant.attitude).expect("written");
         writer.flush().expect("written");

@@ -1,5 +1,7 @@
 //! Keeping time: a tick every 4 ms by the monotonic clock, as punctually as the system allows.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use engine::STEP_NS;
 use rustix::thread::{ClockId as SleepClock, clock_nanosleep_absolute};
 use rustix::time::{ClockId, Timespec, clock_gettime};
@@ -19,22 +21,35 @@ pub fn wall_ns() -> u64 {
     now.tv_sec.cast_unsigned() * 1_000_000_000 + now.tv_nsec.cast_unsigned()
 }
 
+/// Later than this, and the clock is anchored anew, ns: nothing is flown in a burst on stale hands.
+pub const SLIP_LIMIT_NS: u64 = 100_000_000;
+
 /// When the ticks are due.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     start_ns: u64,
     step_ns: u64,
+    slip_limit_ns: u64,
+}
+
+/// How waiting for a tick ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Woken {
+    /// When, by the monotonic clock.
+    pub at_ns: u64,
+    /// By how much the clock was anchored anew; 0 when it was not.
+    pub slip_ns: u64,
 }
 
 impl Pace {
     /// Real time; tick 0 is due now.
     pub fn starting_now() -> Self {
-        Self { start_ns: now_ns(), step_ns: STEP_NS }
+        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns: SLIP_LIMIT_NS }
     }
 
     /// So many times faster than real time; tick 0 is due now.
     pub fn at_speed(speed: f64) -> Self {
-        Self { start_ns: now_ns(), step_ns: (STEP_NS as f64 / speed).round() as u64 }
+        Self { step_ns: (STEP_NS as f64 / speed).round() as u64, ..Self::starting_now() }
     }
 
     /// When a tick is due.
@@ -42,8 +57,9 @@ impl Pace {
         self.start_ns + tick * self.step_ns
     }
 
-    /// Waits until the tick is due; returns when it woke up. A late tick does not wait.
-    pub fn wait(&self, tick: u64) -> u64 {
+    /// Waits until the tick is due. A late tick does not wait; one that is later than the limit is due
+    /// now, and so are those after it in their turn: the process was stopped, or the machine paused.
+    pub fn wait(&mut self, tick: u64) -> Woken {
         let due_ns = self.due_ns(tick);
         let sleep_ns = due_ns.saturating_sub(SPIN_NS);
         if now_ns() < sleep_ns {
@@ -55,12 +71,43 @@ impl Pace {
             let _ = clock_nanosleep_absolute(SleepClock::Monotonic, &until);
         }
         loop {
-            let now_ns = now_ns();
-            if now_ns >= due_ns {
-                return now_ns;
+            let at_ns = now_ns();
+            if at_ns >= due_ns {
+                return Woken { at_ns, slip_ns: self.slip(at_ns - due_ns) };
             }
             std::hint::spin_loop();
         }
+    }
+
+    /// Anchors the clock anew if the tick is too late; returns by how much.
+    fn slip(&mut self, late_ns: u64) -> u64 {
+        let slip_ns = if late_ns > self.slip_limit_ns { late_ns } else { 0 };
+        self.start_ns += slip_ns;
+        slip_ns
+    }
+}
+
+/// The time in which this process was awake, as its loop knows it: a gap between two beats that is
+/// longer than the limit of a slip does not count.
+#[derive(Debug, Default)]
+pub struct Awake {
+    beaten_ns: AtomicU64,
+    awake_ns: AtomicU64,
+}
+
+impl Awake {
+    /// The loop is awake now. Only one thread calls this.
+    pub fn beat(&self, now_ns: u64) {
+        let gap_ns = now_ns.saturating_sub(self.beaten_ns.load(Ordering::Relaxed));
+        self.beaten_ns.store(now_ns, Ordering::Relaxed);
+        if gap_ns <= SLIP_LIMIT_NS {
+            self.awake_ns.fetch_add(gap_ns, Ordering::Relaxed);
+        }
+    }
+
+    /// So long it has been awake, ns.
+    pub fn ns(&self) -> u64 {
+        self.awake_ns.load(Ordering::Relaxed)
     }
 }
 
@@ -102,9 +149,42 @@ mod tests {
 
     #[test]
     fn a_tick_is_never_early() {
-        let pace = Pace::starting_now();
+        let mut pace = Pace::starting_now();
         for tick in 0..5 {
-            assert!(pace.wait(tick) >= pace.due_ns(tick));
+            assert!(pace.wait(tick).at_ns >= pace.due_ns(tick));
         }
+    }
+
+    #[test]
+    fn a_tick_that_is_far_too_late_is_due_now_and_the_next_one_a_step_later() {
+        let mut pace = Pace::starting_now();
+        pace.start_ns -= 2_000_000_000;
+        let woken = pace.wait(0);
+        assert!(woken.slip_ns >= 2_000_000_000, "{woken:?}");
+        assert_eq!(pace.due_ns(0), woken.at_ns);
+        let next = pace.wait(1);
+        assert_eq!(next.slip_ns, 0);
+        assert!(next.at_ns >= woken.at_ns + STEP_NS);
+    }
+
+    #[test]
+    fn a_tick_that_is_a_little_late_catches_up() {
+        let mut pace = Pace::starting_now();
+        pace.start_ns -= SLIP_LIMIT_NS / 2;
+        let due_ns = pace.due_ns(0);
+        assert_eq!(pace.wait(0).slip_ns, 0);
+        assert_eq!(pace.due_ns(0), due_ns);
+    }
+
+    #[test]
+    fn time_in_which_the_process_stood_still_is_not_time_awake() {
+        let awake = Awake::default();
+        let mut now_ns = 7_000_000_000;
+        awake.beat(now_ns);
+        for gap_ns in [STEP_NS, 2_000_000_000, STEP_NS] {
+            now_ns += gap_ns;
+            awake.beat(now_ns);
+        }
+        assert_eq!(awake.ns(), 2 * STEP_NS);
     }
 }

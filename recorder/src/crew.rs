@@ -3,7 +3,7 @@
 use engine::Outputs;
 use engine::inputs::{DeviceEvent, World};
 
-use crate::hands::{Hands, Reach};
+use crate::hands::{GaveUp, Hands, Reach};
 
 /// All hands, and what they hold on to between ticks.
 pub(crate) struct Crew {
@@ -11,12 +11,13 @@ pub(crate) struct Crew {
     pub(crate) world: World,
     pub(crate) phase: (u64, &'static str),
     pub(crate) done: bool,
+    pub(crate) gave_up: Option<GaveUp>,
 }
 
 impl Crew {
     /// Hands that have touched nothing yet.
     pub(crate) fn new(hands: Vec<Box<dyn Hands>>, world: World) -> Self {
-        Self { hands, world, phase: (0, ""), done: false }
+        Self { hands, world, phase: (0, ""), done: false, gave_up: None }
     }
 
     /// Lets every hand act; returns the phase if it changed.
@@ -36,6 +37,7 @@ impl Crew {
                     world: &mut self.world,
                     phase: &mut self.phase,
                     done: &mut self.done,
+                    gave_up: &mut self.gave_up,
                 },
             );
         }

@@ -16,6 +16,25 @@ pub struct Reach<'a> {
     pub phase: &'a mut (u64, &'static str),
     /// Set to end the flight.
     pub done: &'a mut bool,
+    /// Set with it by a pilot model whose task cannot be flown to its end.
+    pub gave_up: &'a mut Option<GaveUp>,
+}
+
+/// What a pilot model gave up, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GaveUp {
+    /// Number of the phase, from 1.
+    pub number: u64,
+    /// Its name.
+    pub phase: &'static str,
+    /// Why.
+    pub why: &'static str,
+}
+
+impl std::fmt::Display for GaveUp {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the pilot gave up, {}: {}", self.phase, self.why)
+    }
 }
 
 impl Reach<'_> {

@@ -1,8 +1,11 @@
 //! What is known of a flight when it is over.
 
+use std::path::PathBuf;
+
 use engine::Outputs;
 use logs::{Closed, LogError};
 
+use crate::end::End;
 use crate::self_check::Checked;
 use crate::statistics::Statistics;
 use crate::writer::Delay;
@@ -14,6 +17,8 @@ pub struct Landing {
     pub statistics: Statistics,
     /// The log, or why it ends early.
     pub log: Result<Closed, LogError>,
+    /// An older log of the same name, when this one could not take its place.
+    pub set_aside: Option<PathBuf>,
     /// What the aircraft was like at the end.
     pub outputs: Outputs,
     /// Device events taken.
@@ -30,6 +35,6 @@ pub struct Landing {
     pub checked: Option<Checked>,
     /// What the system did not grant.
     pub refused: Vec<String>,
-    /// Whether someone ended it.
-    pub stopped: bool,
+    /// Why it ended.
+    pub end: End,
 }

@@ -6,11 +6,13 @@
 
 mod clock;
 mod crew;
+mod end;
 mod flight;
 mod hands;
 mod landing;
 mod live;
 pub mod pilots;
+pub mod pipe;
 mod progress;
 mod rehearsal;
 pub mod script;
@@ -20,9 +22,10 @@ pub mod statistics;
 pub mod sticks;
 pub mod writer;
 
-pub use clock::Pace;
+pub use clock::{Pace, Woken};
+pub use end::End;
 pub use flight::{Flight, FlyError};
-pub use hands::{Hands, Reach};
+pub use hands::{GaveUp, Hands, Reach};
 pub use landing::Landing;
 pub use live::fly;
 pub use progress::{Progress, Snapshot};

@@ -3,6 +3,7 @@
 //! It runs on the thread that flies, asks for no memory once it has begun, and waits for nothing but
 //! time; a flight that is not in real time waits for its writer instead.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
@@ -12,11 +13,13 @@ use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
 use flightgear::Link;
 #[cfg(feature = "sticks")]
 use logs::devices::DeviceIdentity;
+use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
-use logs::{FlightWriter, Identity};
+use logs::{FlightWriter, Identity, Observed};
 
-use crate::clock::{Pace, claim_real_time, now_ns, wall_ns};
+use crate::clock::{Pace, Woken, claim_real_time, now_ns, wall_ns};
 use crate::crew::Crew;
+use crate::end::End;
 use crate::flight::{Flight, FlyError};
 use crate::landing::Landing;
 use crate::progress::Progress;
@@ -53,6 +56,8 @@ pub(crate) struct Live<'a, S> {
     events: Vec<DeviceEvent>,
     events_taken: u64,
     recording: Recording,
+    /// Where the log goes.
+    output: Output,
     self_check: Option<SelfCheck>,
     link: Option<Link>,
     /// Real time; `None` flies as fast as it goes.
@@ -67,6 +72,8 @@ pub(crate) struct Live<'a, S> {
 /// When the parts of a tick were done.
 struct Times {
     woke_ns: u64,
+    /// By so much the clock was anchored anew.
+    slip_ns: u64,
     /// At the same moment, by the wall clock.
     wall_ns: u64,
     sampled_ns: u64,
@@ -86,15 +93,15 @@ where
         let state = analysis::start::state_at(&flight.start, &aircraft)?;
         let world = flight.start.world.world();
         let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
+        let mut output = Output::flight(&flight.out, flight.force)?;
         #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to tell of"))]
         let mut writer = FlightWriter::create(
-            &flight.out,
+            output.file()?,
             &flight.setup,
             &identity,
             &aircraft,
             &flight.robot_description,
             &state,
-            flight.force,
         )?;
         #[cfg(feature = "sticks")]
         for (device, name) in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
@@ -107,8 +114,9 @@ where
                 ..Default::default()
             })?;
         }
+        output.begun()?;
         let (tell, told) = mpsc::channel();
-        let mut recording = Recording::start(writer, &state, told);
+        let mut recording = Recording::start(writer, &aircraft, &state, told);
         let found = Arc::clone(&progress.mismatches);
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
@@ -127,6 +135,7 @@ where
             events: Vec::with_capacity(EVENTS_A_TICK),
             events_taken: 0,
             recording,
+            output,
             self_check,
             link: flight.link,
             ticks_max: flight.ticks_max,
@@ -139,41 +148,58 @@ where
 
     /// Flies until the hands are done, the time is up, or someone wants it to end.
     pub(crate) fn fly(mut self) -> Landing {
-        while !self.crew.done && self.ticks_max.is_none_or(|ticks| self.state.tick < ticks) {
+        let end = loop {
+            if let Some(gave_up) = self.crew.gave_up {
+                break End::GaveUp(gave_up);
+            }
+            if self.crew.done {
+                break End::Done;
+            }
+            if self.ticks_max.is_some_and(|ticks| self.state.tick >= ticks) {
+                break End::TimeUp;
+            }
             if self.progress.stop.load(Ordering::Relaxed) {
-                return self.land(true);
+                break End::Stopped(self.progress.signal());
             }
             self.tick();
-        }
-        self.land(false)
+        };
+        self.land(end)
     }
 
     fn tick(&mut self) {
         let tick = self.state.tick;
-        let woke_ns = self.wait(tick);
+        let Woken { at_ns: woke_ns, slip_ns } = self.wait(tick);
         let wall_ns = wall_ns();
+        self.recording.beat(woke_ns);
         let phase = self.sample(tick);
         let sampled_ns = now_ns();
-        self.record(tick, phase);
+        self.record(tick, phase, slip_ns);
         let recorded_ns = now_ns();
         self.advance();
         let stepped_ns = now_ns();
         let sent_ns = self.publish();
         let handed_ns = now_ns();
-        self.account(
-            tick,
-            &Times { woke_ns, wall_ns, sampled_ns, recorded_ns, stepped_ns, sent_ns, handed_ns },
-        );
+        let times = Times {
+            woke_ns,
+            slip_ns,
+            wall_ns,
+            sampled_ns,
+            recorded_ns,
+            stepped_ns,
+            sent_ns,
+            handed_ns,
+        };
+        self.account(tick, &times);
     }
 
-    /// Waits until the tick is due, or until there is room for it; returns when that was.
-    fn wait(&self, tick: u64) -> u64 {
-        let Some(pace) = &self.pace else {
+    /// Waits until the tick is due, or until there is room for it.
+    fn wait(&mut self, tick: u64) -> Woken {
+        let Some(pace) = &mut self.pace else {
             self.recording.wait_for_room();
             if let Some(check) = &self.self_check {
                 check.wait_for_room();
             }
-            return now_ns();
+            return Woken { at_ns: now_ns(), slip_ns: 0 };
         };
         pace.wait(tick)
     }
@@ -191,7 +217,7 @@ where
     }
 
     /// Hands the inputs over to the writer, before the step that uses them.
-    fn record(&mut self, tick: u64, phase: Option<Phase>) {
+    fn record(&mut self, tick: u64, phase: Option<Phase>, slip_ns: u64) {
         for event in &self.events {
             self.recording.put(ToRecord::Event(*event));
         }
@@ -200,6 +226,10 @@ where
         self.recording.put(ToRecord::Inputs(inputs));
         if let Some((number, name)) = phase {
             self.recording.put(ToRecord::Phase(tick, number, name));
+        }
+        if slip_ns > 0 {
+            self.recording.put(ToRecord::Slip(tick, slip_ns));
+            self.progress.slipped(slip_ns);
         }
     }
 
@@ -215,7 +245,7 @@ where
             link.send(&self.outputs);
         }
         let sent_ns = now_ns();
-        self.recording.put(ToRecord::State(self.state));
+        self.recording.put(ToRecord::State(self.state, Observed::of(&self.outputs)));
         self.recording.show(&self.outputs, self.state.plant.attitude);
         if let Some(check) = &mut self.self_check {
             check.put(&self.events, self.crew.world, &self.state);
@@ -240,8 +270,8 @@ where
                 .min()
                 .map_or(0, |oldest_ns| (times.wall_ns + sent_ns).saturating_sub(oldest_ns)),
             record_ns: (times.recorded_ns - times.sampled_ns) + (times.handed_ns - times.sent_ns),
+            slip_ns: times.slip_ns,
             overrun: u64::from(due_ns.is_some_and(|due_ns| times.handed_ns > due_ns + STEP_NS)),
-            slip_ns: 0,
             stamped_events,
             implausible_events: 0,
         };
@@ -252,17 +282,21 @@ where
     }
 
     /// Ends the log and the threads beside the loop.
-    fn land(mut self, stopped: bool) -> Landing {
-        self.recording.put(ToRecord::Landed(self.state.tick, if stopped { 2 } else { 0 }));
+    fn land(mut self, end: End) -> Landing {
+        self.recording.put(ToRecord::Landed(self.state.tick, end));
         let backlog_max = self.recording.backlog_max;
         // Before the log is closed: what it finds last is told there, too.
         let checked = self.self_check.map(SelfCheck::finish);
         let (sent, unsent) =
             self.link.as_ref().map_or((0, 0), |link| (link.sent(), link.dropped()));
         let (log, delay) = self.recording.finish();
+        let set_aside = self.output.set_aside().map(Path::to_path_buf);
+        let log = log.and_then(|closed| self.output.finish().map(|()| closed));
+        let set_aside = set_aside.filter(|_| log.is_err());
         Landing {
             statistics: self.statistics,
             log,
+            set_aside,
             outputs: self.outputs,
             events: self.events_taken,
             sent,
@@ -271,7 +305,7 @@ where
             delay,
             checked,
             refused: self.refused,
-            stopped,
+            end,
         }
     }
 }

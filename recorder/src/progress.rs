@@ -1,9 +1,15 @@
 //! Where a flight is while it is flown, for whoever shows it, and the word that it should end.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use engine::Outputs;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+
+/// Signals that end a flight in an orderly way, and what they are called. After SIGXFSZ the log cannot
+/// grow any further; what is in it stays.
+const ENDING: [(i32, &str); 4] =
+    [(SIGINT, "SIGINT"), (SIGTERM, "SIGTERM"), (SIGHUP, "SIGHUP"), (SIGXFSZ, "SIGXFSZ")];
 
 /// Where the flight is, for whoever shows it, written by the loop without waiting.
 #[derive(Debug, Default)]
@@ -15,6 +21,10 @@ pub struct Progress {
     phase: AtomicU64,
     overruns: AtomicU64,
     log_failed: AtomicBool,
+    slips: AtomicU64,
+    slipped_ns: AtomicU64,
+    /// The last signal that came, by its place in [`ENDING`], from 1.
+    signal: Arc<AtomicUsize>,
     pub(crate) mismatches: Arc<AtomicU64>,
     /// Set by whoever wants the flight to end.
     pub stop: Arc<AtomicBool>,
@@ -37,20 +47,37 @@ pub struct Snapshot {
     pub overruns: u64,
     /// The log cannot be written any further.
     pub log_failed: bool,
+    /// How often the clock was anchored anew, because the process had stood still.
+    pub slips: u64,
+    /// For how long it had in all, s.
+    pub slipped_s: f64,
     /// Seconds of flight that were not the same when reflown in flight.
     pub mismatches: u64,
 }
 
 impl Progress {
-    /// Lets SIGINT and SIGTERM end the flight: the log is finished and the summary printed.
+    /// Lets SIGINT, SIGTERM, SIGHUP and SIGXFSZ end the flight: the log is finished and the summary
+    /// printed. Who has the last two ignored, as `nohup` does, wants the flight to go on.
     ///
     /// # Errors
     /// When the system refuses the handlers.
     pub fn stop_on_signals(&self) -> std::io::Result<()> {
-        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        let ignored = ignored();
+        for (number, (signal, _)) in (1..).zip(ENDING) {
+            if matches!(signal, SIGHUP | SIGXFSZ) && ignored & 1 << (signal - 1) != 0 {
+                continue;
+            }
+            // The name first: whoever sees that it should end can say why.
+            signal_hook::flag::register_usize(signal, Arc::clone(&self.signal), number)?;
             signal_hook::flag::register(signal, Arc::clone(&self.stop))?;
         }
         Ok(())
+    }
+
+    /// What the signal that ended the flight is called.
+    pub(crate) fn signal(&self) -> Option<&'static str> {
+        let number = self.signal.load(Ordering::Relaxed);
+        ENDING.get(number.checked_sub(1)?).map(|(_, name)| *name)
     }
 
     /// Where the flight is now.
@@ -64,8 +91,16 @@ impl Progress {
             phase: self.phase.load(Ordering::Relaxed),
             overruns: self.overruns.load(Ordering::Relaxed),
             log_failed: self.log_failed.load(Ordering::Relaxed),
+            slips: self.slips.load(Ordering::Relaxed),
+            slipped_s: self.slipped_ns.load(Ordering::Relaxed) as f64 * 1e-9,
             mismatches: self.mismatches.load(Ordering::Relaxed),
         }
+    }
+
+    /// The clock was anchored anew.
+    pub(crate) fn slipped(&self, slip_ns: u64) {
+        self.slipped_ns.fetch_add(slip_ns, Ordering::Relaxed);
+        self.slips.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Written by the loop, without waiting.
@@ -79,4 +114,12 @@ impl Progress {
         self.overruns.store(overruns, Ordering::Relaxed);
         self.log_failed.store(log_failed, Ordering::Relaxed);
     }
+}
+
+/// The signals that whoever started this process has it ignore, a bit each from signal 1 on; none where
+/// the system does not tell.
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }

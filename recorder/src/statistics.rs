@@ -45,7 +45,13 @@ pub struct Statistics {
     pub ticks: u64,
     /// Ticks that ended after the next one was due.
     pub overruns: u64,
-    /// From when a tick was due until it ran.
+    /// How often the clock was anchored anew, because the process had stood still.
+    pub slips: u64,
+    /// By how much at most.
+    pub slip_ns_max: u64,
+    /// And in all.
+    pub slip_ns: u64,
+    /// From when a tick was due until it ran, slips apart.
     pub late: Durations,
     /// The step alone.
     pub step: Durations,
@@ -63,6 +69,9 @@ impl Statistics {
         Self {
             ticks: 0,
             overruns: 0,
+            slips: 0,
+            slip_ns_max: 0,
+            slip_ns: 0,
             late: Durations::new(),
             step: Durations::new(),
             sent: Durations::new(),
@@ -75,6 +84,9 @@ impl Statistics {
     pub fn add(&mut self, timing: &TimingRecord) {
         self.ticks += 1;
         self.overruns += timing.overrun;
+        self.slips += u64::from(timing.slip_ns > 0);
+        self.slip_ns += timing.slip_ns;
+        self.slip_ns_max = self.slip_ns_max.max(timing.slip_ns);
         self.late.add(timing.late_ns);
         self.step.add(timing.step_ns);
         self.sent.add(timing.sent_ns);

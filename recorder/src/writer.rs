@@ -12,11 +12,13 @@ use std::time::{Duration, Instant};
 
 use engine::frames::Attitude;
 use engine::inputs::DeviceEvent;
-use engine::{Outputs, State};
+use engine::{Aircraft, Outputs, State};
 use logs::records::{Happening, InputsRecord, TimingRecord};
-use logs::{Closed, FlightWriter, LogError, Narrator};
+use logs::{Closed, FlightWriter, LogError, Narrator, Observed};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
+use crate::clock::{Awake, now_ns};
+use crate::end::End;
 use crate::self_check::Mismatch;
 
 /// Entries the ring holds: three a tick, twenty seconds and some.
@@ -30,7 +32,8 @@ const FLUSH: Duration = Duration::from_millis(100);
 /// How often the thread looks for work.
 const NAP: Duration = Duration::from_millis(4);
 
-/// A writer that needs longer than this for one thing was held up: a disk, a pipe, a busy machine.
+/// A writer that needs longer than this for one thing was held up: a disk, a pipe, a busy machine. Time
+/// in which the whole process stood still does not count.
 const HELD_UP: Duration = Duration::from_millis(500);
 
 /// How the writer was held up.
@@ -51,14 +54,16 @@ pub enum ToRecord {
     Event(DeviceEvent),
     /// The world, before the step.
     Inputs(InputsRecord),
-    /// The state after the step.
-    State(State),
+    /// The state after the step, and what was seen of it.
+    State(State, Observed),
     /// How the tick kept time.
     Timing(TimingRecord),
     /// The phase of the flight changed.
     Phase(u64, u64, &'static str),
+    /// The clock was anchored anew before this tick, by so many ns.
+    Slip(u64, u64),
     /// The flight ends: tick and reason.
-    Landed(u64, u64),
+    Landed(u64, End),
 }
 
 /// The loop's end of the hand-over.
@@ -69,26 +74,37 @@ pub struct Recording {
     thread: Option<JoinHandle<(Result<Closed, LogError>, Delay)>>,
     failed: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
+    awake: Arc<Awake>,
     /// Most entries that ever waited.
     pub backlog_max: usize,
 }
 
 impl Recording {
     /// Starts the thread; `mismatches` is what a self-check finds.
-    pub fn start(writer: FlightWriter, initial: &State, mismatches: Receiver<Mismatch>) -> Self {
-        let (ring, entries) = touched_ring(RING_ENTRIES, ToRecord::State(*initial));
+    pub fn start(
+        writer: FlightWriter,
+        aircraft: &Aircraft,
+        initial: &State,
+        mismatches: Receiver<Mismatch>,
+    ) -> Self {
+        let filling = ToRecord::State(*initial, Observed::default());
+        let (ring, entries) = touched_ring(RING_ENTRIES, filling);
         let (view, views) = touched_ring(VIEW_OUTPUTS, (Outputs::default(), Attitude::default()));
         let failed = Arc::new(AtomicBool::new(false));
         let done = Arc::new(AtomicBool::new(false));
+        let awake = Arc::new(Awake::default());
+        awake.beat(now_ns());
         let scribe = Scribe {
             writer: Some(writer),
             entries,
             views,
-            narrator: Narrator::new(initial),
+            narrator: Narrator::new(initial, &aircraft.envelope.airframe),
             mismatches,
+            held: None,
             tick: initial.tick,
             delay: Delay::default(),
-            seen: Instant::now(),
+            awake: Arc::clone(&awake),
+            seen_ns: awake.ns(),
             failed: Arc::clone(&failed),
             done: Arc::clone(&done),
             error: None,
@@ -101,8 +117,14 @@ impl Recording {
             thread: Some(thread),
             failed,
             done,
+            awake,
             backlog_max: 0,
         }
+    }
+
+    /// The loop is awake, and its clock shows this.
+    pub fn beat(&self, now_ns: u64) {
+        self.awake.beat(now_ns);
     }
 
     /// Hands an entry over. Never waits, never drops.
@@ -137,6 +159,7 @@ impl Recording {
             if self.has_failed() {
                 return;
             }
+            self.beat(now_ns());
             thread::sleep(Duration::from_micros(100));
         }
     }
@@ -152,10 +175,15 @@ impl Recording {
             let mut entry = waiting;
             while let Err(PushError::Full(back)) = self.ring.push(entry) {
                 entry = back;
+                self.beat(now_ns());
                 thread::sleep(NAP);
             }
         }
         self.done.store(true, Ordering::Release);
+        while self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
+            self.beat(now_ns());
+            thread::sleep(NAP);
+        }
         let ended = self.thread.take().and_then(|thread| thread.join().ok());
         ended.unwrap_or_else(|| (Err(writer_died()), Delay::default()))
     }
@@ -169,6 +197,12 @@ fn touched_ring<T: Copy>(capacity: usize, entry: T) -> (Producer<T>, Consumer<T>
     (producer, consumer)
 }
 
+/// What is told when the clock was anchored anew.
+pub fn slipped(slip_ns: u64) -> String {
+    let slip_s = slip_ns as f64 * 1e-9;
+    format!("the clock slipped by {slip_s:.3} s: the process stood still, and so did the flight")
+}
+
 fn writer_died() -> LogError {
     LogError::Io(std::io::Error::other("the writer thread died"))
 }
@@ -180,11 +214,14 @@ struct Scribe {
     views: Consumer<(Outputs, Attitude)>,
     narrator: Narrator,
     mismatches: Receiver<Mismatch>,
+    /// A state that waits for the timing of its tick, which is of an earlier moment.
+    held: Option<(State, Observed)>,
     /// Tick of the last state written.
     tick: u64,
     delay: Delay,
-    /// When this thread last got somewhere.
-    seen: Instant,
+    awake: Arc<Awake>,
+    /// When this thread last got somewhere, by the time awake.
+    seen_ns: u64,
     failed: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
     error: Option<LogError>,
@@ -193,7 +230,6 @@ struct Scribe {
 impl Scribe {
     fn run(mut self) -> (Result<Closed, LogError>, Delay) {
         let mut flushed = Instant::now();
-        self.seen = flushed;
         loop {
             // Looked at before draining: nothing is put after it is set.
             let last_round = self.done.load(Ordering::Acquire);
@@ -209,6 +245,8 @@ impl Scribe {
             }
             thread::sleep(NAP);
         }
+        let released = self.release();
+        self.keep(released);
         let log = match (self.writer, self.error) {
             (Some(writer), None) => writer.finish(),
             (_, Some(error)) => Err(error),
@@ -223,11 +261,6 @@ impl Scribe {
             self.keep(written);
             self.look_at_the_clock();
         }
-        while let Ok((outputs, attitude)) = self.views.pop() {
-            let written = self.show(&outputs, attitude);
-            self.keep(written);
-            self.look_at_the_clock();
-        }
         while let Ok(mismatch) = self.mismatches.try_recv() {
             let written = self.mismatch(&mismatch);
             self.keep(written);
@@ -237,8 +270,9 @@ impl Scribe {
     /// Notes in the log, and for the landing, when the last thing took too long. Nothing is lost by
     /// it, but whoever wonders about the log finds it there.
     fn look_at_the_clock(&mut self) {
-        let took = self.seen.elapsed();
-        self.seen += took;
+        let now_ns = self.awake.ns();
+        let took = Duration::from_nanos(now_ns.saturating_sub(self.seen_ns));
+        self.seen_ns = now_ns;
         if took < HELD_UP {
             return;
         }
@@ -251,7 +285,7 @@ impl Scribe {
             took.as_secs_f64()
         );
         let (what, ms) = (Happening::WriterHeldUp, took.as_millis() as u64);
-        let written = writer.happened(self.tick, what, ms, &words);
+        let written = writer.happened(self.tick, what, ms, [0.0; 2], &words);
         self.keep(written);
     }
 
@@ -262,10 +296,14 @@ impl Scribe {
             "self-check: tick {tick}, reflown in flight, was not the same: {fields} numbers of the \
              state, first {path}"
         );
-        writer.happened(*tick, Happening::SelfCheck, *fields, &words)
+        writer.happened(*tick, Happening::SelfCheck, *fields, [0.0; 2], &words)
     }
 
+    /// Writes an entry; log times never go back, so the state of a tick waits for the tick's timing.
     fn write(&mut self, entry: &ToRecord) -> Result<(), LogError> {
+        if !matches!(entry, ToRecord::Timing(_)) {
+            self.release()?;
+        }
         let Some(writer) = self.writer.as_mut() else { return Ok(()) };
         match entry {
             ToRecord::Event(event) => {
@@ -276,30 +314,47 @@ impl Scribe {
                 writer.inputs(inputs)?;
                 self.narrator.inputs(writer, inputs)
             }
-            ToRecord::State(state) => {
-                self.tick = state.tick;
-                writer.state(state)?;
-                self.narrator.state(writer, state)
+            ToRecord::State(state, seen) => {
+                self.held = Some((*state, *seen));
+                Ok(())
             }
-            ToRecord::Timing(timing) => writer.timing(timing),
+            ToRecord::Timing(timing) => {
+                writer.timing(timing)?;
+                self.release()
+            }
             ToRecord::Phase(tick, number, name) => {
-                writer.happened(*tick, Happening::Phase, *number, name)
+                writer.happened(*tick, Happening::Phase, *number, [0.0; 2], name)
             }
-            ToRecord::Landed(tick, reason) => {
-                let words = match reason {
-                    0 => "end of the flight",
-                    1 => "ended by the crew",
-                    _ => "ended by a signal",
-                };
-                writer.happened(*tick, Happening::Landed, *reason, words)
+            ToRecord::Slip(tick, slip_ns) => {
+                let words = slipped(*slip_ns);
+                let ms = slip_ns / 1_000_000;
+                writer.happened(*tick, Happening::Slip, ms, [0.0; 2], &words)
+            }
+            ToRecord::Landed(tick, end) => {
+                if let End::GaveUp(gave_up) = end {
+                    let (number, words) = (gave_up.number, gave_up.to_string());
+                    writer.happened(*tick, Happening::GaveUp, number, [0.0; 2], &words)?;
+                }
+                let words = end.to_string();
+                writer.happened(*tick, Happening::Landed, end.number(), [0.0; 2], &words)
             }
         }
     }
 
-    fn show(&mut self, outputs: &Outputs, attitude: Attitude) -> Result<(), LogError> {
+    /// Writes the state that waits, what can be told of it, and what viewers draw up to it.
+    fn release(&mut self) -> Result<(), LogError> {
         let Some(writer) = self.writer.as_mut() else { return Ok(()) };
-        writer.view(outputs, attitude)?;
-        self.narrator.outputs(writer, outputs)
+        if let Some((state, seen)) = self.held.take() {
+            self.tick = state.tick;
+            writer.state(&state)?;
+            self.narrator.state(writer, &state, &seen)?;
+        }
+        while self.views.peek().is_ok_and(|(outputs, _)| outputs.tick <= self.tick) {
+            if let Ok((outputs, attitude)) = self.views.pop() {
+                writer.view(&outputs, attitude)?;
+            }
+        }
+        Ok(())
     }
 
     /// After an error the flight goes on; what comes is taken and let go.

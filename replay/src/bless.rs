@@ -1,11 +1,12 @@
 //! Golden flights after a deliberate change of the model: flown anew, and what moved.
 
 use std::fmt;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use engine::math::sqrt;
+use engine::math::{max, sqrt};
 use engine::{STEP_S, State};
+use logs::fields::Value;
+use logs::output::Output;
 use logs::text::at;
 use logs::{Ending, Identity, LogError, OpenOptions, cdr};
 
@@ -58,6 +59,22 @@ pub struct Largest {
     /// Now.
     pub now: String,
     absolute: f64,
+    /// The largest of the numbers of its group that changed, before or now.
+    scale: f64,
+    /// A real number, no count and no flag.
+    is_real: bool,
+}
+
+/// Changes below this part of the numbers that changed are rounding: what a model changes is larger.
+const ROUNDING_RELATIVE: f64 = 1e-9;
+/// And so are changes below this, in SI units, of what is 0 but for rounding itself.
+const ROUNDING_SI: f64 = 1e-12;
+
+impl Largest {
+    /// Whether it is no more than another order of operations makes. A count that changed is more.
+    fn is_rounding(&self) -> bool {
+        self.is_real && self.absolute <= max(ROUNDING_RELATIVE * self.scale, ROUNDING_SI)
+    }
 }
 
 /// Flies a golden flight anew by its recorded inputs, and says what moved. A flight from tick 0 begins
@@ -123,15 +140,9 @@ fn fly(
     };
     let before = logs::closing(log).map_or(0, |(_, digest)| digest);
     let identity = inherited(identity, &reader.identity, before);
-    let temporary = beside(log, "new");
-    let new = NewLog {
-        out: &temporary,
-        force: true,
-        setup: &setup,
-        identity: &identity,
-        timing: true,
-        picture_of: None,
-    };
+    let out = Output::beside(log, true, &[])?;
+    let new =
+        NewLog { out: &out, setup: &setup, identity: &identity, timing: true, picture_of: None };
     let names = Names::of::<State>()?;
     let mut seen = Seen::new(&names, &reader.initial);
     seen.compare(&reader.initial, &initial)?;
@@ -157,21 +168,17 @@ fn fly(
             failure.get_or_insert(error);
         }
     })?;
-    let clean_up = |error| {
-        let _ = fs::remove_file(&temporary);
-        error
-    };
     if let Some(error) = failure {
-        return Err(clean_up(error.into()));
+        return Err(error.into());
     }
     if let Some(tick) = altered {
         let what = format!("it was changed after the flight: the digest breaks at tick {tick}");
-        return Err(clean_up(refused(&what)));
+        return Err(refused(&what));
     }
     match reader.ending() {
         Some(Ending::Closed) => {}
-        Some(Ending::Damaged(why)) => return Err(clean_up(refused(&format!("damaged: {why}")))),
-        _ => return Err(clean_up(refused("it was never closed"))),
+        Some(Ending::Damaged(why)) => return Err(refused(&format!("damaged: {why}"))),
+        _ => return Err(refused("it was never closed")),
     }
     let mut moved = Moved {
         groups: seen.largest.into_iter().flatten().collect(),
@@ -186,30 +193,20 @@ fn fly(
     };
     // What is the same already stays as it is.
     if write && !(moved.is_same() && moved.models.0 == moved.models.1) {
-        moved.bytes = take_place(log, &temporary, compacted).map_err(clean_up)?;
+        moved.bytes = take_place(log, out, compacted, moved.bytes)?;
     }
-    let _ = fs::remove_file(&temporary);
     Ok(moved)
 }
 
 /// Puts the new flight where the old one is, in the old one's form; returns its size.
-fn take_place(log: &Path, new: &Path, compacted: bool) -> Result<u64, ReplayError> {
-    let failed = |error| ReplayError::from(LogError::Io(error));
+fn take_place(log: &Path, new: Output, compacted: bool, bytes: u64) -> Result<u64, ReplayError> {
     if !compacted {
-        fs::rename(new, log).map_err(failed)?;
-        return Ok(fs::metadata(log).map_err(failed)?.len());
+        new.finish()?;
+        return Ok(bytes);
     }
-    let packed = beside(log, "compact");
-    let copied = logs::compact::compact(new, &packed, true, KEYFRAME_TICKS, flown, |_| ())?;
-    fs::rename(&packed, log).map_err(failed)?;
-    Ok(copied.bytes)
-}
-
-/// A file beside another one.
-pub fn beside(log: &Path, what: &str) -> PathBuf {
-    let mut name = log.as_os_str().to_owned();
-    name.push(format!(".{what}"));
-    name.into()
+    let packed =
+        logs::compact::compact(new.unfinished(), log, true, KEYFRAME_TICKS, flown, |_| ())?;
+    Ok(packed.bytes)
 }
 
 fn refused(what: &str) -> ReplayError {
@@ -259,6 +256,11 @@ impl<'a> Seen<'a> {
             let absolute = difference.absolute();
             self.first_tick.get_or_insert(before.tick);
             let largest = &mut self.largest[difference.name.group];
+            let before_scale = largest.as_ref().map_or(0.0, |largest| largest.scale);
+            let scale = max(before_scale, difference.scale());
+            if let Some(largest) = largest {
+                largest.scale = scale;
+            }
             if largest.as_ref().is_none_or(|largest| absolute > largest.absolute) {
                 *largest = Some(Largest {
                     path: difference.name.path.clone(),
@@ -267,6 +269,8 @@ impl<'a> Seen<'a> {
                     before: difference.a.to_string(),
                     now: difference.b.to_string(),
                     absolute,
+                    scale,
+                    is_real: matches!(difference.a, Value::F64(_)),
                 });
             }
         }
@@ -285,6 +289,37 @@ impl Moved {
     fn first_bad_tick(&self, source: &Judgement) -> Option<u64> {
         let outputs = self.outputs.as_ref().and_then(|outputs| outputs.tick);
         [self.first_tick, source.first_bad_tick, outputs].into_iter().flatten().min()
+    }
+
+    fn write_groups(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.groups.is_empty() {
+            writeln!(f, "  {:<48} {:>12}  at", "largest change by field", "")?;
+        }
+        for group in &self.groups {
+            writeln!(
+                f,
+                "  {:<48} {:>12.5e} {:<6} {:>9.3} s  ({} -> {})",
+                group.path,
+                group.absolute,
+                group.unit,
+                s(group.tick),
+                group.before,
+                group.now
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Whether states moved, and none of them by more than another order of operations makes.
+    pub fn is_rounding(&self) -> bool {
+        !self.groups.is_empty()
+            && self.outputs.is_none()
+            && self.groups.iter().all(Largest::is_rounding)
+            && self.touchdowns.0.iter().eq(self
+                .touchdowns
+                .1
+                .iter()
+                .map(|touchdown| &touchdown.tick))
     }
 }
 
@@ -318,20 +353,15 @@ impl fmt::Display for Moved {
         if self.models.0 != self.models.1 {
             writeln!(f, "  flight model   {} -> {}", self.models.0, self.models.1)?;
         }
-        if !self.groups.is_empty() {
-            writeln!(f, "  {:<48} {:>12}  at", "largest change by field", "")?;
-        }
-        for group in &self.groups {
+        if self.is_rounding() {
             writeln!(
                 f,
-                "  {:<48} {:>12.5e} {:<6} {:>9.3} s  ({} -> {})",
-                group.path,
-                group.absolute,
-                group.unit,
-                s(group.tick),
-                group.before,
-                group.now
+                "  rounding only  {} groups of fields, none by more than {ROUNDING_RELATIVE:e} of what it is \
+                 or {ROUNDING_SI:e} in its SI unit",
+                self.groups.len()
             )?;
+        } else {
+            self.write_groups(f)?;
         }
         let apart = now.position_m - before.position_m;
         let distance = sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z);
@@ -346,5 +376,59 @@ impl fmt::Display for Moved {
         let list = |list: &[String]| if list.is_empty() { "none".into() } else { list.join("; ") };
         writeln!(f, "  touchdown      {} -> {}", list(&old), list(&new))?;
         write!(f, "  digest         {:016x} -> {:016x}", self.digests.0, self.digests.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moved(change: impl Fn(&mut State)) -> Moved {
+        let names = Names::of::<State>().expect("recordable");
+        let mut before = State::default();
+        before.plant.position_m.x = 1000.0;
+        before.plant.position_m.z = -300.0;
+        let mut now = before;
+        change(&mut now);
+        let mut seen = Seen::new(&names, &before);
+        seen.compare(&before, &now).expect("states");
+        Moved {
+            groups: seen.largest.into_iter().flatten().collect(),
+            first_tick: seen.first_tick,
+            seen_every_ticks: 1,
+            ends: (before, now),
+            touchdowns: (Vec::new(), Vec::new()),
+            digests: (1, 2),
+            outputs: None,
+            models: ("2".into(), "2"),
+            bytes: 0,
+        }
+    }
+
+    #[test]
+    fn rounding_is_called_so_in_a_line() {
+        let said = moved(|state| {
+            state.plant.position_m.x += 1e-12;
+            state.plant.velocity_mps.y = 1e-17;
+        });
+        assert!(said.is_rounding());
+        let said = said.to_string();
+        assert!(said.contains("rounding only  2 groups of fields"), "{said}");
+        assert!(!said.contains("velocity_mps.y"), "{said}");
+    }
+
+    #[test]
+    fn what_is_more_than_rounding_is_listed() {
+        for change in [
+            (|state: &mut State| state.plant.position_m.x += 1e-5) as fn(&mut State),
+            |state| state.plant.velocity_mps.y = 1e-9,
+            |state| state.plant.weight_on_wheels ^= 1,
+            |state| state.plant.fuel_kg = f64::NAN,
+        ] {
+            let said = moved(change);
+            assert!(!said.is_rounding());
+            assert!(said.to_string().contains("largest change by field"), "{said}");
+        }
+        assert!(!moved(|_| ()).is_rounding(), "nothing moved");
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use engine::math::max;
 use logs::LogError;
 use logs::cdr::HEADER;
 use logs::fields::Value;
@@ -81,18 +82,26 @@ impl Names {
 impl Difference<'_> {
     /// b − a without its sign; infinite where one of them is no number.
     pub fn absolute(&self) -> f64 {
-        let number = |value| match value {
-            Value::F64(value) => value,
-            Value::U64(value) => value as f64,
-            Value::I64(value) => value as f64,
-        };
         let apart = (number(self.b) - number(self.a)).abs();
         if apart.is_nan() { f64::INFINITY } else { apart }
+    }
+
+    /// The larger of both without its sign.
+    pub fn scale(&self) -> f64 {
+        max(number(self.a).abs(), number(self.b).abs())
     }
 
     /// How many representable numbers lie between.
     pub fn ulps(&self) -> u64 {
         self.a.ulps_to(self.b).unwrap_or(u64::MAX)
+    }
+}
+
+fn number(value: Value) -> f64 {
+    match value {
+        Value::F64(value) => value,
+        Value::U64(value) => value as f64,
+        Value::I64(value) => value as f64,
     }
 }
 

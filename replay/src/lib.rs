@@ -20,7 +20,7 @@ mod versions;
 pub mod view;
 mod words;
 
-pub use bless::{KEYFRAME_TICKS, Largest, Moved, beside, bless};
+pub use bless::{KEYFRAME_TICKS, Largest, Moved, bless};
 pub use diff::{
     Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
 };
@@ -28,7 +28,7 @@ pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use judgement::{End, Facts, Judgement, Outcome, judge};
 pub use outputs::OutputsDifference;
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
-pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite};
+pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite, rewrite_in};
 pub use source::Source;
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};

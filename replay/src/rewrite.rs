@@ -2,11 +2,14 @@
 
 use std::path::Path;
 
+use engine::inputs::World;
 use engine::{Inputs, Outputs, State, observe, step};
-use logs::records::{EventRecord, Happening};
+use logs::output::Output;
+use logs::records::{EventRecord, Happening, InputsRecord};
 use logs::view::Remark;
 use logs::{
-    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Messages, Narrator, Setup, Tick,
+    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Messages, Narrator, Observed,
+    Setup, Tick,
 };
 
 use crate::refly::{OPEN, ReplayError, read};
@@ -37,10 +40,8 @@ pub mod parent {
 
 /// The log to be written.
 pub struct NewLog<'a> {
-    /// Where.
-    pub out: &'a Path,
-    /// Whether a file there may be overwritten.
-    pub force: bool,
+    /// Where; whoever asked for it finishes it.
+    pub out: &'a Output,
     /// What it is flown with.
     pub setup: &'a Setup,
     /// Who flies.
@@ -76,7 +77,7 @@ pub fn names_parent(identity: Identity, log: &Path, reader: &FlightReader, by: &
 
 /// Flies the inputs of `reader`, from where it stands, with the aircraft of the new log, from `initial`
 /// on, and writes all of it. `watch` sees every tick: as recorded, the state flown, and what could be
-/// observed. When anything fails, no file is left.
+/// observed.
 ///
 /// # Errors
 /// When the files of the new log cannot be read, the old one is not a whole flight as far as it is
@@ -85,6 +86,20 @@ pub fn rewrite(
     reader: &mut FlightReader,
     initial: &State,
     new: &NewLog<'_>,
+    watch: impl FnMut(&Tick, &State, &Outputs, &FlightReader),
+) -> Result<Rewritten, ReplayError> {
+    rewrite_in(reader, initial, new, |world| world, watch)
+}
+
+/// The same in another world: `change` makes that of each tick of the recorded one.
+///
+/// # Errors
+/// As for [`rewrite`].
+pub fn rewrite_in(
+    reader: &mut FlightReader,
+    initial: &State,
+    new: &NewLog<'_>,
+    change: impl Fn(World) -> World,
     mut watch: impl FnMut(&Tick, &State, &Outputs, &FlightReader),
 ) -> Result<Rewritten, ReplayError> {
     let flown = read(new.setup)?;
@@ -94,18 +109,11 @@ pub fn rewrite(
         known if same_aircraft && !known.is_empty() => known.to_string(),
         _ => aircraft::urdf(aircraft),
     };
-    let mut writer = FlightWriter::create(
-        new.out,
-        new.setup,
-        new.identity,
-        aircraft,
-        &shape,
-        initial,
-        new.force,
-    )?;
+    let mut writer =
+        FlightWriter::create(new.out.file()?, new.setup, new.identity, aircraft, &shape, initial)?;
     let mut touchdown_ticks = Vec::new();
     let mut written = || -> Result<(), ReplayError> {
-        let mut narrator = Narrator::new(initial);
+        let mut narrator = Narrator::new(initial, &aircraft.envelope.airframe);
         let mut state = *initial;
         let log = new.picture_of.filter(|_| same_aircraft && reader.initial == *initial);
         let pictured = log.map(|log| take_picture(log, state.tick, &mut writer)).transpose()?;
@@ -119,20 +127,20 @@ pub fn rewrite(
                 writer.event(event)?;
                 narrator.event(&mut writer, event)?;
             }
-            writer.inputs(&tick.inputs)?;
-            narrator.inputs(&mut writer, &tick.inputs)?;
+            let inputs = InputsRecord { world: change(tick.inputs.world), ..tick.inputs };
+            writer.inputs(&inputs)?;
+            narrator.inputs(&mut writer, &inputs)?;
             crew_said(reader, &mut writer, &mut touchdown_ticks)?;
             let tick = &reader.tick;
-            let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
+            let inputs = Inputs { events: &tick.events, world: inputs.world };
             let (next, outputs) = step(aircraft, &state, &inputs);
             state = next;
-            writer.state(&state)?;
-            narrator.state(&mut writer, &state)?;
             for timing in reader.timings.drain(..).filter(|_| new.timing) {
                 writer.timing(&timing)?;
             }
+            writer.state(&state)?;
+            narrator.state(&mut writer, &state, &Observed::of(&outputs))?;
             writer.view(&outputs, state.plant.attitude)?;
-            narrator.outputs(&mut writer, &outputs)?;
             watch(&reader.tick, &state, &outputs, reader);
             reader.outputs.retain(|outputs| outputs.tick > state.tick);
         }
@@ -142,18 +150,8 @@ pub fn rewrite(
             _ => Ok(()),
         }
     };
-    let result = written();
-    let closed = match result {
-        Ok(()) => writer.finish().map_err(ReplayError::from),
-        Err(error) => {
-            drop(writer);
-            Err(error)
-        }
-    };
-    if closed.is_err() {
-        let _ = std::fs::remove_file(new.out);
-    }
-    Ok(Rewritten { closed: closed?, touchdown_ticks })
+    written()?;
+    Ok(Rewritten { closed: writer.finish()?, touchdown_ticks })
 }
 
 /// Takes over what viewers drew of a tick; `false` when there is nothing of it.
@@ -179,9 +177,10 @@ fn crew_said(
         |event: &&EventRecord| event.kind == Happening::WeightOnWheels as u64 && event.value == 1;
     touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
     for (event, remark) in happenings.iter().zip(&remarks) {
-        if let Some(what @ (Happening::Phase | Happening::Landed)) = Happening::from_u64(event.kind)
+        if let Some(what @ (Happening::Phase | Happening::Landed | Happening::GaveUp)) =
+            Happening::from_u64(event.kind)
         {
-            writer.happened(event.tick, what, event.value, &remark.words)?;
+            writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
         }
     }
     Ok(())

@@ -38,11 +38,12 @@ mod scenery;
 mod solid;
 mod track;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use engine::Outputs;
 use engine::aircraft::Params as Aircraft;
 use engine::pair::Pair;
+use logs::output::Output;
 use rerun::RecordingStreamError;
 use rerun::external::re_log_encoding::rrd::EncodeError;
 use rerun::sink::SinkFlushError;
@@ -132,9 +133,10 @@ pub struct FlightView {
 }
 
 impl FlightView {
-    /// Begins the file at `path`, with everything that does not move and the viewer's layout.
-    pub fn new(path: &Path, title: &str, aircraft: &Aircraft) -> Result<Self, ViewError> {
-        let canvas = Canvas::new(path, title, Subject::Flight, &[(&ALONE, aircraft)])?;
+    /// Begins the file, which whoever asked for it finishes, with everything that does not move and the
+    /// viewer's layout.
+    pub fn new(out: &Output, title: &str, aircraft: &Aircraft) -> Result<Self, ViewError> {
+        let canvas = Canvas::new(out, title, Subject::Flight, &[(&ALONE, aircraft)])?;
         Ok(Self { canvas, track: Track::new(&ALONE, aircraft) })
     }
 
@@ -161,6 +163,8 @@ mod tests {
     use engine::frames::{Euler, Vec3};
     use engine::math::{FRAC_PI_2, clamp, cos, ramp, sin};
     use engine::state::Geodetic;
+    use logs::LogError;
+    use std::path::Path;
 
     const SECOND: u64 = 250;
 
@@ -226,8 +230,8 @@ mod tests {
     }
 
     fn draw(path: &Path, ticks: u64) -> u64 {
-        let mut view =
-            FlightView::new(path, "a climbing turn", &xv15()).expect("a writable folder");
+        let out = Output::beside(path, false, &[]).expect("a writable folder");
+        let mut view = FlightView::new(&out, "a climbing turn", &xv15()).expect("a recording");
         let mut outputs = Outputs::default();
         outputs.balance.cg_m = Vec3::new(7.65, 0.0, 2.074);
         outputs.position_m.z = -2.2;
@@ -242,7 +246,9 @@ mod tests {
                 view.event(tick, Severity::Warning, "rotor wake meets the tail");
             }
         }
-        view.finish().expect("a disk with room")
+        let bytes = view.finish().expect("a disk with room");
+        out.finish().expect("in its place");
+        bytes
     }
 
     #[test]
@@ -257,8 +263,8 @@ mod tests {
     #[test]
     fn a_long_flight_keeps_a_short_path() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut view =
-            FlightView::new(&folder.path().join("long.rrd"), "long", &xv15()).expect("a file");
+        let out = Output::beside(&folder.path().join("long.rrd"), false, &[]).expect("a file");
+        let mut view = FlightView::new(&out, "long", &xv15()).expect("a recording");
         let mut outputs = Outputs::default();
         for step in 0..20_000_u32 {
             outputs.position_m.x = f64::from(step) * 1.5;
@@ -269,8 +275,10 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_cannot_be_made_is_told() {
+    fn a_file_that_cannot_be_written_is_told() {
         let missing = Path::new("/nonexistent/folder/flight.rrd");
-        assert!(matches!(FlightView::new(missing, "x", &xv15()), Err(ViewError::Write { .. })));
+        assert!(matches!(Output::beside(missing, false, &[]), Err(LogError::Create { .. })));
+        let full = Output::beside(Path::new("/dev/full"), true, &[]).expect("a device");
+        assert!(matches!(FlightView::new(&full, "x", &xv15()), Err(ViewError::Write { .. })));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::{self, BufWriter, Write};
+use std::io::{BufWriter, Write};
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
@@ -14,6 +14,7 @@ use logs::{Ending, Messages};
 use replay::{Outcome, Window};
 use wildmatch::WildMatch;
 
+use crate::console::Stdout;
 use crate::status::Status;
 use crate::window::WindowArgs;
 
@@ -44,7 +45,7 @@ pub fn run(args: &Args) -> Result<Status> {
     let globs = |globs: &[String]| globs.iter().map(|g| WildMatch::new(g)).collect::<Vec<_>>();
     let (channels, fields) = (globs(&args.channel), globs(&args.field));
     let mut choices: BTreeMap<String, Choice> = BTreeMap::new();
-    let mut out = BufWriter::new(io::stdout().lock());
+    let mut out = BufWriter::new(Stdout);
     let name = args.log.display();
     let window = args.window.of(&args.log)?;
     // What cannot be flown any more is still read by its own schema.
@@ -83,7 +84,7 @@ pub fn run(args: &Args) -> Result<Status> {
         }
         line.push_str("}\n");
         if out.write_all(line.as_bytes()).is_err() {
-            // Whoever closes the pipe early, as `head` does, has seen enough.
+            // Whoever closed the pipe has seen enough; another error is told at the end.
             return Ok(Status::Done);
         }
     }

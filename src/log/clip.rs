@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
+use logs::output::Output;
 use logs::text::{at, size};
-use replay::{KEYFRAME_TICKS, NewLog, Source, Window, beside, names_parent, parent, rewrite};
+use replay::{KEYFRAME_TICKS, NewLog, Source, Window, names_parent, parent, rewrite};
 
 use crate::identity;
 use crate::made::Made;
 use crate::status::Status;
-use crate::whatif::refuse_itself;
 use crate::window::WindowArgs;
 
 /// Where golden flights live.
@@ -44,14 +44,21 @@ pub struct Args {
 
 /// Cuts the part out, flies it, and writes it.
 pub fn run(args: &Args) -> Result<Status> {
+    if args.window.is_whole() {
+        bail!("which part? give --from, --until or --around");
+    }
+    if args.window.is_whole() {
+        bail!("which part? give --from, --until or --around");
+    }
     let window = args.window.of(&args.log)?;
     let Some(name) = &args.as_golden else {
         let stem = args.log.file_stem().unwrap_or_default().display().to_string();
         let name = format!("{stem}-clip.mcap");
         let out = args.out.clone().unwrap_or_else(|| args.log.with_file_name(name));
         let source = source(args)?;
-        let (ticks, bytes) = cut(args, &source, &window, &out, args.force, true)?;
-        let made = Made::of(&source, &out)?;
+        let output = Output::beside(&out, args.force, &[&args.log])?;
+        let (ticks, bytes) = cut(args, &source, &window, &output, true)?;
+        let made = Made::of(&source, output)?;
         told(&out, ticks, bytes);
         return Ok(made.say(&args.log));
     };
@@ -66,28 +73,22 @@ pub fn run(args: &Args) -> Result<Status> {
     let folder = Path::new(GOLDEN);
     fs::create_dir_all(folder).with_context(|| format!("cannot make {GOLDEN}"))?;
     let out = folder.join(format!("{name}.mcap"));
-    if out.exists() && !args.force {
-        bail!("{} exists; name another, or overwrite it with --force", out.display());
-    }
     let source = source(args)?;
-    let whole = beside(&out, "whole");
-    let golden = || -> Result<(u64, u64)> {
-        let (ticks, _) = cut(args, &source, &window, &whole, true, false)?;
-        let made =
-            logs::compact::compact(&whole, &out, args.force, KEYFRAME_TICKS, replay::flown, |_| ())
-                .with_context(|| out.display().to_string())?;
-        Ok((ticks, made.bytes))
-    };
-    let made = golden();
-    let _ = fs::remove_file(&whole);
-    let (ticks, bytes) = made?;
-    let made = Made::of(&source, &out)?;
+    let whole = Output::beside(&out, args.force, &[&args.log])?;
+    let (ticks, _) = cut(args, &source, &window, &whole, false)?;
+    // Before the flight takes its place: what can fail has been done then.
+    let entry = enter(&folder.join("README.md"), name, reason)?;
+    let (from, keyframes) = (whole.unfinished(), KEYFRAME_TICKS);
+    let bytes = logs::compact::compact(from, &out, args.force, keyframes, replay::flown, |_| ())
+        .with_context(|| out.display().to_string())?
+        .bytes;
+    let made = Made::finished(&source, &out)?;
+    entry.finish()?;
     told(&out, ticks, bytes);
     if bytes > GOLDEN_BYTES_MAX {
         let most = size(GOLDEN_BYTES_MAX);
         complain!("tiltrotor: that is more than {most}: a shorter window would do as well");
     }
-    enter(&folder.join("README.md"), name, reason)?;
     say!("`cargo test --no-default-features --test golden` verifies it");
     Ok(made.say(&args.log))
 }
@@ -106,17 +107,15 @@ fn told(out: &Path, ticks: u64, bytes: u64) {
     );
 }
 
-/// Writes the part as a log of its own; returns its ticks and its size.
+/// Writes the part as a log of its own, which is not finished yet; returns its ticks and its size.
 fn cut(
     args: &Args,
     source: &Source,
     window: &Window,
-    out: &Path,
-    force: bool,
+    out: &Output,
     timing: bool,
 ) -> Result<(u64, u64)> {
     let log = &args.log;
-    refuse_itself(log, out)?;
     let name = || log.display().to_string();
     let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
     window.apply(&mut reader).with_context(name)?;
@@ -126,7 +125,7 @@ fn cut(
     }
     let (setup, initial) = (reader.setup.clone(), reader.initial);
     let picture_of = Some(log.as_path());
-    let new = NewLog { out, force, setup: &setup, identity: &identity, timing, picture_of };
+    let new = NewLog { out, setup: &setup, identity: &identity, timing, picture_of };
     let (mut ticks, mut wrong) = (0, None);
     let written = rewrite(&mut reader, &initial, &new, |tick, state, _, _| {
         ticks += 1;
@@ -136,7 +135,6 @@ fn cut(
     })
     .with_context(name)?;
     if let Some(tick) = wrong {
-        let _ = fs::remove_file(out);
         bail!(
             "{}: not cut: from {} on it does not refly to the recorded bits; `tiltrotor verify` says \
              more",
@@ -145,19 +143,19 @@ fn cut(
         );
     }
     if ticks == 0 {
-        let _ = fs::remove_file(out);
         bail!("{}: not cut: there is no tick in that window", name());
     }
     Ok((ticks, written.closed.bytes))
 }
 
-/// Says in the folder's README what the flight is for.
-fn enter(readme: &Path, name: &str, reason: &str) -> Result<()> {
+/// Says in the folder's README what the flight is for; whoever asked for it finishes it.
+fn enter(readme: &Path, name: &str, reason: &str) -> Result<Output> {
     let entry = format!("- `{name}.mcap`: {reason}");
     let old = fs::read_to_string(readme).unwrap_or_else(|_| "# Golden flights\n".into());
     let mine = format!("- `{name}.mcap`: ");
     let kept: Vec<_> = old.lines().filter(|line| !line.starts_with(&mine)).collect();
-    let mut file = fs::File::create(readme).with_context(|| readme.display().to_string())?;
-    writeln!(file, "{}\n{entry}", kept.join("\n"))?;
-    Ok(())
+    let output = Output::beside(readme, true, &[])?;
+    writeln!(output.file()?, "{}\n{entry}", kept.join("\n"))
+        .with_context(|| readme.display().to_string())?;
+    Ok(output)
 }

@@ -6,11 +6,12 @@ use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::compact::{self, Copied};
+use logs::output::Output;
 use logs::text::size;
 use replay::{Outcome, Source};
 
+use crate::numbers::between;
 use crate::status::Status;
-use crate::whatif::refuse_itself;
 
 /// Seconds between two states that are kept: an eighth of what is kept at all, and soon flown.
 const KEYFRAMES_S: f64 = 2.0;
@@ -25,6 +26,7 @@ pub struct CompactArgs {
     out: Option<PathBuf>,
     /// Seconds between two states that are kept
     #[arg(long, value_name = "SECONDS", default_value_t = KEYFRAMES_S)]
+    #[arg(value_parser = between(STEP_S, 1000.0, "s"), allow_negative_numbers = true)]
     keyframes: f64,
     /// Overwrite an existing file
     #[arg(long)]
@@ -47,14 +49,11 @@ pub struct ExpandArgs {
 /// Compacts.
 pub fn compact(args: &CompactArgs) -> Result<Status> {
     let keyframe_ticks = (args.keyframes / STEP_S).round();
-    if !(1.0..=250_000.0).contains(&keyframe_ticks) {
-        bail!("--keyframes {}: expected {STEP_S} s (one tick) to 1000 s", args.keyframes);
-    }
     let stem = stem(&args.log);
-    let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"))?;
+    let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"));
     let source = Source::proven(&args.log, "not compacted")
         .with_context(|| args.log.display().to_string())?;
-    let copied = work(&args.log, &out, args.force, |progress| {
+    let copied = work(&args.log, |progress| {
         let ticks = keyframe_ticks as u64;
         compact::compact(&args.log, &out, args.force, ticks, replay::flown, progress)
     })?;
@@ -79,18 +78,19 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
         Some(before) => format!("{before}.mcap"),
         None => format!("{stem}-expanded.mcap"),
     };
-    let out = out(&args.log, args.out.as_deref(), &name)?;
+    let out = out(&args.log, args.out.as_deref(), &name);
     let source = Source::proven(&args.log, "not expanded")
         .with_context(|| args.log.display().to_string())?;
-    let copied = work(&args.log, &out, args.force, |progress| {
-        compact::expand(&args.log, &out, args.force, replay::flown, progress)
-    })?;
+    let output = Output::beside(&out, args.force, &[&args.log])?;
+    let copied =
+        work(&args.log, |progress| compact::expand(&args.log, &output, replay::flown, progress))?;
     // Every state that was flown again has to have the digest that was kept.
-    let made = Source::of(&out).with_context(|| out.display().to_string())?.judgement;
+    let made =
+        Source::of(output.unfinished()).with_context(|| out.display().to_string())?.judgement;
     if !matches!(made.outcome, Outcome::NotReflown | Outcome::NeverClosed) {
-        let _ = std::fs::remove_file(&out);
         bail!("{}: not expanded: it is not what was compacted: {made}", args.log.display());
     }
+    output.finish()?;
     let ticks = copied.states.saturating_sub(1);
     say!(
         "{}: {}, {ticks} ticks ({:.1} s)",
@@ -110,16 +110,13 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
     Ok(Status::from(&source.judgement))
 }
 
-/// Carries it out with a line of progress on a terminal; when it fails, no file is left.
+/// Carries it out with a line of progress on a terminal.
 fn work(
     log: &Path,
-    out: &Path,
-    force: bool,
     copy: impl FnOnce(&mut dyn FnMut(u64)) -> Result<Copied, logs::LogError>,
 ) -> Result<Copied> {
     let bar = ProgressBar::new_spinner();
     bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-    let there_before = out.exists();
     let copied = copy(&mut |states| {
         if states.is_multiple_of(2500) {
             bar.set_message(format!("{}: {:.0} s", log.display(), states as f64 * STEP_S));
@@ -127,9 +124,6 @@ fn work(
         }
     });
     bar.finish_and_clear();
-    if copied.is_err() && (force || !there_before) {
-        let _ = std::fs::remove_file(out);
-    }
     copied.with_context(|| log.display().to_string())
 }
 
@@ -137,8 +131,6 @@ fn stem(log: &Path) -> String {
     log.file_stem().unwrap_or_default().display().to_string()
 }
 
-fn out(log: &Path, out: Option<&Path>, name: &str) -> Result<PathBuf> {
-    let out = out.map_or_else(|| log.with_file_name(name), Path::to_path_buf);
-    refuse_itself(log, &out)?;
-    Ok(out)
+fn out(log: &Path, out: Option<&Path>, name: &str) -> PathBuf {
+    out.map_or_else(|| log.with_file_name(name), Path::to_path_buf)
 }

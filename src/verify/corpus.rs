@@ -1,5 +1,6 @@
 //! Which logs: files, folders, and a part of them for each machine.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,16 +8,18 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
 
-/// The logs named, sorted by path, each once: a folder stands for every `*.mcap` in it and below.
+/// The logs named, sorted by path, each once: a folder stands for every `*.mcap` in it and below, upper
+/// case and links included.
 ///
 /// # Errors
-/// When a folder cannot be read, or has no log: nothing verified must not look like all is well.
+/// When a folder cannot be read, or has no log, or has something in it that could be one or lead to
+/// some: nothing verified must not look like all is well.
 pub fn logs(named: &[PathBuf]) -> Result<Vec<PathBuf>> {
     let mut logs = Vec::new();
     for path in named {
         if path.is_dir() {
             let before = logs.len();
-            walk(path, &mut logs)?;
+            Walk::default().all_below(path, &mut logs)?;
             if logs.len() == before {
                 bail!("{}: no *.mcap in this folder", path.display());
             }
@@ -36,19 +39,49 @@ pub fn logs(named: &[PathBuf]) -> Result<Vec<PathBuf>> {
     Ok(logs)
 }
 
-fn walk(folder: &Path, logs: &mut Vec<PathBuf>) -> Result<()> {
-    let read = || format!("cannot read the folder {}", folder.display());
-    for entry in fs::read_dir(folder).with_context(read)? {
-        let entry = entry.with_context(read)?;
-        let path = entry.path();
-        // Folders behind links may lead back here.
-        if entry.file_type().with_context(read)?.is_dir() {
-            walk(&path, logs)?;
-        } else if path.extension().is_some_and(|extension| extension == "mcap") && path.is_file() {
-            logs.push(path);
+/// Folders under way.
+#[derive(Default)]
+struct Walk {
+    /// Where it has been, links followed: a link that leads back here ends here.
+    seen: BTreeSet<PathBuf>,
+    /// Linked folders: looked at after all others, so that what is found does not depend on the order
+    /// in which a machine lists a folder.
+    linked: BTreeSet<PathBuf>,
+}
+
+impl Walk {
+    fn all_below(mut self, folder: &Path, logs: &mut Vec<PathBuf>) -> Result<()> {
+        self.folder(folder, logs)?;
+        while let Some(folder) = self.linked.pop_first() {
+            self.folder(&folder, logs)?;
         }
+        Ok(())
     }
-    Ok(())
+
+    fn folder(&mut self, folder: &Path, logs: &mut Vec<PathBuf>) -> Result<()> {
+        let read = || format!("cannot read the folder {}", folder.display());
+        if !self.seen.insert(fs::canonicalize(folder).with_context(read)?) {
+            return Ok(());
+        }
+        for entry in fs::read_dir(folder).with_context(read)? {
+            let entry = entry.with_context(read)?;
+            let (path, kind) = (entry.path(), entry.file_type().with_context(read)?);
+            let is_log = path.extension().is_some_and(|name| name.eq_ignore_ascii_case("mcap"));
+            if kind.is_dir() {
+                self.folder(&path, logs)?;
+            } else if kind.is_symlink() && path.is_dir() {
+                self.linked.insert(path);
+            } else if is_log && (kind.is_symlink() || kind.is_file()) {
+                // A link to nothing is told when it is read.
+                logs.push(path);
+            } else if is_log {
+                bail!("{}: neither a file nor a folder", path.display());
+            } else if kind.is_symlink() && !path.exists() {
+                bail!("{}: a link to nothing; it may have led to logs", path.display());
+            }
+        }
+        Ok(())
+    }
 }
 
 /// A part of the logs: `2/3` is the second of three.

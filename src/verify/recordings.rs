@@ -6,6 +6,7 @@ mod with_rerun {
     use std::path::{Component, Path, PathBuf};
 
     use anyhow::{Context, Result};
+    use logs::output::Output;
     use replay::view::Other;
 
     use super::super::Run;
@@ -22,8 +23,10 @@ mod with_rerun {
         };
         for verified in run.logs.iter().filter(parted) {
             let saved = folder.join(name(&verified.log));
-            replay::view::draw_against(&verified.log, Other::Reflown, &saved)
+            let output = Output::beside(&saved, true, &[&verified.log])?;
+            replay::view::draw_against(&verified.log, Other::Reflown, &output)
                 .with_context(|| verified.log.display().to_string())?;
+            output.finish()?;
             complain!("{}: recorded, reflown and the difference", saved.display());
         }
         Ok(())

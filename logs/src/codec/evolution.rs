@@ -234,7 +234,7 @@ mod tests {
         let event = mapping.decode(&message, &otherwise).unwrap();
         assert_eq!(event, DeviceEvent { tick: 77, device: 2, code: 30, ..otherwise });
         let difference = &mapping.difference;
-        assert_eq!(difference.missing, ["kernel_time_ns", "kind", "value"]);
+        assert_eq!(difference.missing, ["kernel_time_ns", "kind", "value", "raw_min", "raw_max"]);
         assert_eq!(difference.ignored, ["force_n", "value"]);
         assert!(mapping.decode(&message[..20], &otherwise).is_err());
     }

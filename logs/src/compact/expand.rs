@@ -11,18 +11,18 @@ use super::flier::AircraftOf;
 use super::{Copied, Expander};
 use crate::LogError;
 use crate::container::checksums::Fingerprint;
-use crate::container::{LogFile, Record, RecordSource, create};
+use crate::container::{LogFile, Record, RecordSource};
+use crate::output::Output;
 use crate::writer::CHUNK_BYTES;
 
-/// Writes the log that was compacted.
+/// Writes the log that was compacted; whoever asked for it finishes the output.
 ///
 /// # Errors
 /// When `log` is not a compacted log of this version, is damaged, does not refly to its digests, or
 /// `out` cannot be written.
 pub fn expand(
     log: &Path,
-    out: &Path,
-    force: bool,
+    out: &Output,
     aircraft_of: AircraftOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Copied, LogError> {
@@ -34,7 +34,7 @@ pub fn expand(
     let mut record = Record::default();
     while from.next(&mut record)? {
         if let Record::Header { profile, library } = &record {
-            writer = Some(Copy::create(out, force, profile, library)?);
+            writer = Some(Copy::create(out.file()?, profile, library)?);
         } else if let Some(writer) = &mut writer {
             writer.put(&record)?;
         }
@@ -42,7 +42,7 @@ pub fn expand(
     }
     let writer = writer.ok_or_else(|| LogError::NotAFlight("a compacted log of nothing".into()))?;
     writer.finish()?;
-    let made = Fingerprint::of(out)?;
+    let made = Fingerprint::of(out.unfinished())?;
     Ok(Copied {
         bytes_before: from.bytes(),
         bytes: made.bytes,
@@ -55,13 +55,13 @@ pub fn expand(
 struct Copy(Writer<BufWriter<File>>);
 
 impl Copy {
-    fn create(path: &Path, force: bool, profile: &str, library: &str) -> Result<Self, LogError> {
+    fn create(file: File, profile: &str, library: &str) -> Result<Self, LogError> {
         let options = WriteOptions::new()
             .compression(Some(mcap::Compression::Lz4))
             .chunk_size(Some(CHUNK_BYTES))
             .profile(profile)
             .library(library);
-        Ok(Self(options.disable_seeking(true).create(BufWriter::new(create(path, force)?))?))
+        Ok(Self(options.disable_seeking(true).create(BufWriter::new(file))?))
     }
 
     fn put(&mut self, record: &Record) -> Result<(), LogError> {

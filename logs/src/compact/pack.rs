@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
+use std::sync::Arc;
 
 use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use mcap::{Compression, WriteOptions, Writer};
@@ -15,10 +16,11 @@ use super::flier::{AircraftOf, Flier, short_digest};
 use super::proof::prove;
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted};
-use crate::container::checksums::add_message;
-use crate::container::{Index, LogFile, Record, RecordSource, create, stamped};
+use crate::container::checksums::{RollCalls, add_message};
+use crate::container::{Index, LogFile, Record, RecordSource, Schema, stamped};
+use crate::output::Output;
 use crate::records::{StateRecord, time_ns};
-use crate::setup::{CLOSING, Identity, METADATA};
+use crate::setup::{CLOSING, CLOSING_MESSAGES, Identity, METADATA};
 use crate::{LogError, cdr};
 
 /// Compacts a log, and expands it again in memory: the same messages, files and facts come back, or there
@@ -35,6 +37,7 @@ pub fn compact(
     aircraft_of: AircraftOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Copied, LogError> {
+    let output = Output::beside(out, force, &[log])?;
     let mut from = LogFile::open(log)?.with_fingerprint();
     // What comes before the first message.
     let mut head = Vec::new();
@@ -46,16 +49,13 @@ pub fn compact(
             // Our writer defines all channels first, other programs when they need them.
             let later = Index::read(log).map(|index| index.definitions).unwrap_or_default();
             head.extend(later.into_iter().filter(|new| !head.contains(new)).collect::<Vec<_>>());
-            packing = Some(Pack::begin(&head, out, force, keyframe_ticks, aircraft_of)?);
+            packing = Some(Pack::begin(&head, output.file()?, keyframe_ticks, aircraft_of)?);
         }
         let Some(pack) = &mut packing else {
             head.push(record.clone());
             continue;
         };
         match &mut record {
-            Record::Message(..) if tail.iter().any(|record| record.name == CLOSING) => {
-                return Err(LogError::Order("messages after the writer's last word".into()));
-            }
             Record::Message(header, data) => {
                 pack.message(*header, data)?;
                 progress(pack.states);
@@ -69,6 +69,7 @@ pub fn compact(
     }
     let mut pack = packing.ok_or_else(|| LogError::NotAFlight("no message in it".into()))?;
     pack.close_last()?;
+    pack.refuse_others_count(&head, &tail)?;
     tail.iter().try_for_each(|record| pack.to.write_metadata(record))?;
     let original = from.fingerprint().cloned().unwrap_or_default();
     let last = [
@@ -80,7 +81,8 @@ pub fn compact(
     pack.to.finish()?;
     let file = pack.to.into_inner().into_inner().map_err(std::io::IntoInnerError::into_error)?;
     let bytes = file.metadata()?.len();
-    prove(log, out, aircraft_of)?;
+    prove(log, output.unfinished(), aircraft_of)?;
+    output.finish()?;
     Ok(Copied { bytes_before: original.bytes, bytes, states: pack.states, same_file: None })
 }
 
@@ -90,6 +92,10 @@ struct Pack {
     hash: Xxh3Default,
     /// Topic of each channel, and which of ours it is.
     topics: BTreeMap<u16, (String, Option<&'static Channel>)>,
+    /// Text of each message type, and of each channel's.
+    types: BTreeMap<u16, Arc<[u8]>>,
+    definitions: BTreeMap<u16, Arc<[u8]>>,
+    roll_calls: RollCalls,
     flier: Flier,
     /// A message as it was made again.
     again: Vec<u8>,
@@ -104,8 +110,7 @@ struct Pack {
 impl Pack {
     fn begin(
         head: &[Record],
-        out: &Path,
-        force: bool,
+        out: File,
         keyframe_ticks: u64,
         aircraft_of: AircraftOf,
     ) -> Result<Self, LogError> {
@@ -134,7 +139,7 @@ impl Pack {
             .profile(profile)
             .library(library)
             .disable_seeking(true)
-            .create(BufWriter::new(create(out, force)?))?;
+            .create(BufWriter::new(out))?;
         to.write_metadata(&facts(HEAD, [("version", VERSION.to_string())]))?;
         metadata.clone().try_for_each(|record| to.write_metadata(record))?;
         let schema = b"uint8[] data\n";
@@ -144,6 +149,9 @@ impl Pack {
             to,
             hash: Xxh3Default::new(),
             topics: BTreeMap::new(),
+            types: BTreeMap::new(),
+            definitions: BTreeMap::new(),
+            roll_calls: RollCalls::default(),
             flier: Flier::new(flown),
             again: Vec::new(),
             block: Block::after(0),
@@ -169,11 +177,44 @@ impl Pack {
             }
             self.topics.insert(*id, (topic.clone(), Channel::of(topic)));
         }
+        match definition {
+            Record::Schema(Schema { id, text, .. }) => {
+                self.types.insert(*id, text.as_slice().into());
+            }
+            Record::Channel(channel) => {
+                let text = self.types.get(&channel.schema_id).cloned().unwrap_or_default();
+                self.definitions.insert(channel.id, text);
+            }
+            _ => {}
+        }
         define(&mut self.to, definition)
     }
 
+    /// Other people's tools write metadata while a chunk of messages waits: what comes after the writer's
+    /// last word may still be his. It is, when he counted it.
+    fn refuse_others_count(&self, head: &[Record], tail: &[Metadata]) -> Result<(), LogError> {
+        let metadata = head.iter().filter_map(|record| match record {
+            Record::Metadata(record) => Some(record),
+            _ => None,
+        });
+        let closing = metadata.chain(tail).find(|record| record.name == CLOSING);
+        let counted = closing.and_then(|record| record.metadata.get(CLOSING_MESSAGES));
+        match counted.map(|text| text.parse().ok()) {
+            Some(counted) if !self.roll_calls.are(counted) => Err(LogError::Damaged(
+                "the messages are not those that its writer counted; `tiltrotor verify` says more"
+                    .into(),
+            )),
+            _ => Ok(()),
+        }
+    }
+
     fn message(&mut self, header: MessageHeader, data: &[u8]) -> Result<(), LogError> {
-        let channel = self.topics.get(&header.channel_id).and_then(|(_, channel)| *channel);
+        let (topic, channel) = self
+            .topics
+            .get(&header.channel_id)
+            .map_or(("", None), |(topic, channel)| (topic.as_str(), *channel));
+        let text = self.definitions.get(&header.channel_id).map_or(&[][..], |text| text);
+        self.roll_calls.add(topic, channel.is_some(), text, &header, data);
         let op = match channel.map(|channel| (channel, channel.compacted)) {
             Some((_, Compacted::Reflown)) => return self.state(header, data),
             Some((channel, Compacted::Rows)) => {

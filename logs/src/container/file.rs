@@ -123,6 +123,13 @@ impl LogFile {
 
     fn read(&mut self, into: &mut Record) -> Result<bool, LogError> {
         while let Some(event) = self.reader.next_event() {
+            // The file itself is read below: here only a decompressor fails to read.
+            let event = event.map_err(|error| match error {
+                McapError::Io(_) => LogError::Damaged(
+                    "a chunk of messages is not as written (it cannot be decompressed)".into(),
+                ),
+                error => error.into(),
+            });
             let (opcode, data) = match event? {
                 LinearReadEvent::Record { opcode, data } => (opcode, data),
                 LinearReadEvent::ReadRequest(wanted) => {
@@ -264,17 +271,6 @@ impl RecordSource for LogFile {
     fn seek(&mut self, tick: u64) -> Result<(), LogError> {
         self.jump_before(tick, 0).map(|_| ())
     }
-}
-
-/// A file to be written.
-pub(crate) fn create(path: &Path, force: bool) -> Result<File, LogError> {
-    File::options()
-        .write(true)
-        .create(true)
-        .truncate(force)
-        .create_new(!force)
-        .open(path)
-        .map_err(|error| LogError::create(path, error))
 }
 
 /// Keeps the last bytes, as many as the magic number has.

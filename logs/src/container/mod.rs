@@ -6,7 +6,7 @@ mod file;
 mod index;
 mod record;
 
-pub(crate) use file::{LogFile, create};
+pub(crate) use file::LogFile;
 pub(crate) use index::Index;
 pub use record::time_ns;
 pub(crate) use record::{RECORD_BYTES_MAX, Record, Schema, stamped};

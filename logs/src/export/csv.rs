@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io::Write;
-use std::path::Path;
 
 use super::{Cell, Column, Table};
 use crate::LogError;
@@ -13,8 +12,7 @@ pub(super) struct CsvTable {
 }
 
 impl CsvTable {
-    pub fn create(path: &Path, columns: &[Column]) -> Result<Self, LogError> {
-        let file = File::create(path).map_err(|error| LogError::create(path, error))?;
+    pub fn new(file: File, columns: &[Column]) -> Result<Self, LogError> {
         let mut csv = csv::WriterBuilder::new().buffer_capacity(64 * 1024).from_writer(file);
         csv.write_record(columns.iter().map(|column| &column.name)).map_err(told)?;
         Ok(Self { csv, cell: Vec::new() })
@@ -38,7 +36,8 @@ impl Table for CsvTable {
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), LogError> {
-        Ok(self.csv.flush()?)
+        self.csv.flush()?;
+        Ok(self.csv.get_ref().sync_all()?)
     }
 }
 

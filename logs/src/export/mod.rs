@@ -15,12 +15,13 @@ mod parquet;
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::{Kind, Layout};
+use crate::output;
 use crate::records::STATE;
 use crate::view;
 use crate::{Ending, LogError, Message, Messages, OpenOptions};
@@ -46,11 +47,11 @@ impl Form {
         }
     }
 
-    fn create(self, path: &Path, columns: &[Column]) -> Result<Box<dyn Table>, LogError> {
+    fn begin(self, file: File, columns: &[Column]) -> Result<Box<dyn Table>, LogError> {
         Ok(match self {
-            Self::Csv => Box::new(csv::CsvTable::create(path, columns)?),
+            Self::Csv => Box::new(csv::CsvTable::new(file, columns)?),
             #[cfg(feature = "parquet")]
-            Self::Parquet => Box::new(parquet::ParquetTable::create(path, columns)?),
+            Self::Parquet => Box::new(parquet::ParquetTable::new(file, columns)?),
         })
     }
 }
@@ -113,7 +114,7 @@ trait Table {
     /// Adds a row: a cell a column, of the column's kind.
     fn push(&mut self, row: &[Cell]) -> Result<(), LogError>;
 
-    /// Ends the file.
+    /// Ends the file and brings it to disk.
     fn finish(self: Box<Self>) -> Result<(), LogError>;
 }
 
@@ -203,7 +204,9 @@ impl Tables {
         columns: &[Column],
         layout: Option<&Layout>,
     ) -> Result<&mut OpenTable, LogError> {
-        let table = self.form.create(&self.unfinished.join(name), columns)?;
+        let path = self.unfinished.join(name);
+        let file = File::create_new(&path).map_err(|error| LogError::create(&path, error))?;
+        let table = self.form.begin(file, columns)?;
         let open = OpenTable { table, layout: layout.cloned(), rows: 0 };
         Ok(self.open.entry(name.to_string()).or_insert(open))
     }
@@ -267,8 +270,7 @@ impl Tables {
             if let Some(parent) = place.parent() {
                 fs::create_dir_all(parent).map_err(|error| LogError::create(parent, error))?;
             }
-            fs::rename(self.unfinished.join(name), &place)
-                .map_err(|error| LogError::create(&place, error))?;
+            output::place(&self.unfinished.join(name), &place, &place, true)?;
             bytes += fs::metadata(&place)?.len();
         }
         Ok((rows, bytes))

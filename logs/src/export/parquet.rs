@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io::BufWriter;
-use std::path::Path;
 use std::sync::Arc;
 
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
@@ -40,8 +39,7 @@ enum Values {
 }
 
 impl ParquetTable {
-    pub fn create(path: &Path, columns: &[Column]) -> Result<Self, LogError> {
-        let file = File::create(path).map_err(|error| LogError::create(path, error))?;
+    pub fn new(file: File, columns: &[Column]) -> Result<Self, LogError> {
         let fields = columns.iter().map(field).collect::<Result<_, _>>().map_err(told)?;
         let schema =
             Type::group_type_builder("flight").with_fields(fields).build().map_err(told)?;
@@ -125,8 +123,8 @@ impl Table for ParquetTable {
             self.write_group().map_err(told)?;
         }
         let file = self.file.into_inner().map_err(told)?;
-        file.into_inner().map_err(std::io::IntoInnerError::into_error)?;
-        Ok(())
+        let file = file.into_inner().map_err(std::io::IntoInnerError::into_error)?;
+        Ok(file.sync_all()?)
     }
 }
 

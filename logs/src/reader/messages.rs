@@ -28,6 +28,8 @@ pub struct Messages {
     files: Vec<(String, Vec<u8>)>,
     from_tick: u64,
     until_tick: u64,
+    /// As far as it was wanted, all was read; the rest was not looked at.
+    is_read: bool,
 }
 
 /// One message.
@@ -56,6 +58,7 @@ impl Messages {
             files: Vec::new(),
             from_tick: 0,
             until_tick: u64::MAX,
+            is_read: false,
         })
     }
 
@@ -89,6 +92,7 @@ impl Messages {
                     let tick = header.log_time / engine::STEP_NS;
                     // What viewers draw is written after the states, but not ten seconds after.
                     if tick > self.until_tick.saturating_add(PAST_TICKS) {
+                        self.is_read = true;
                         return None;
                     }
                     if (self.from_tick..=self.until_tick).contains(&tick) {
@@ -113,6 +117,9 @@ impl Messages {
 
     /// How the file ends, once the last message has been read.
     pub fn ending(&self) -> Ending {
+        if self.is_read {
+            return Ending::Closed;
+        }
         match &self.stream.ending {
             // An end without the writer's last word was put there by someone else.
             Ending::Closed if self.facts.iter().all(|(name, _)| name != CLOSING) => {

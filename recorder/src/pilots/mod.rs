@@ -18,7 +18,7 @@ pub use device::{DEVICE, VirtualDevice};
 use phase::{Order, Phase};
 use skill::{Eyes, HAND_TICKS, Skill};
 
-use crate::hands::{Hands, Reach};
+use crate::hands::{GaveUp, Hands, Reach};
 
 /// Names of the pilot models, each with what it flies.
 pub const PILOTS: [(&str, &str); 7] = [
@@ -110,6 +110,8 @@ pub struct Pilot {
     touched_tick: Option<u64>,
     /// It has been in the air.
     flown: bool,
+    /// Why its task cannot be flown to the end.
+    failed: Option<GaveUp>,
     /// The thumb on the nacelle switch: −1 forward, 0 off it, 1 aft.
     thumb: i8,
     /// When the other hand last moved a handle.
@@ -133,6 +135,7 @@ impl Pilot {
             started: false,
             touched_tick: None,
             flown: false,
+            failed: None,
             thumb: 0,
             handle_tick: 0,
         })
@@ -144,7 +147,7 @@ impl Pilot {
     }
 
     /// Who stands on the ground after a flight, wanted or not, has landed: a stopped engine may not let
-    /// an aircraft hover.
+    /// an aircraft hover. Its task is given up with it.
     fn give_up_flying(&mut self, seen: &Outputs, tick: u64) {
         let eyes = Eyes::look(seen);
         self.flown |= seen.height_above_ground_m > FLOWN_M;
@@ -153,11 +156,19 @@ impl Pilot {
         if !(self.flown && down) || self.phases.get(self.at).is_none_or(landing) {
             return;
         }
+        self.give_up("the aircraft is on the ground");
         self.phases.truncate(self.at + 1);
         self.phases.push(("on the ground", Phase::Land));
         self.at += 1;
         self.since_tick = tick;
         self.touched_tick = Some(tick);
+    }
+
+    /// The phase under way cannot be flown to its end; the first reason is the one that is told.
+    fn give_up(&mut self, why: &'static str) {
+        let phase = self.phases.get(self.at).map_or("", |(name, _)| name);
+        let number = self.at as u64 + 1;
+        self.failed.get_or_insert(GaveUp { number, phase, why });
     }
 
     fn begin(&mut self, seen: &Outputs) {
@@ -178,7 +189,11 @@ impl Hands for Pilot {
             self.begin(seen);
         }
         self.give_up_flying(seen, reach.tick);
+        if seen.validity.intersects(Validity::HULL | Validity::FROZEN) {
+            self.give_up("the aircraft is a wreck");
+        }
         let Some(&(name, phase)) = self.phases.get(self.at) else {
+            *reach.gave_up = self.failed;
             *reach.done = true;
             return;
         };
@@ -191,10 +206,14 @@ impl Hands for Pilot {
         self.device.set(reach, AxisControl::PedalRight, to.pedal_right_norm);
         self.device.set(reach, AxisControl::Collective, to.lever_norm);
         self.switches(seen, reach);
-        if over || since_s > phase.patience_s() {
+        if over {
             self.at += 1;
             self.since_tick = reach.tick;
             self.order.turned_rad = 0.0;
+        } else if since_s > phase.patience_s() {
+            self.give_up("it takes too long");
+            *reach.gave_up = self.failed;
+            *reach.done = true;
         }
     }
 }

@@ -42,7 +42,8 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// When a pilot no longer waits for what does not come, s.
+    /// When a pilot no longer waits for what does not come, and gives up, s. What has no end of its own
+    /// is never given up for its length.
     pub fn patience_s(self) -> f64 {
         match self {
             Self::Wait { .. } | Self::Hold { .. } | Self::Circle { .. } => f64::INFINITY,
@@ -344,7 +345,7 @@ impl Pilot {
         self.skill.fly(seen, &aim)
     }
 
-    /// Thumb switches and handles: nacelles, flaps, gear.
+    /// Thumb switches and handles: nacelles, rotor speed, flaps, gear.
     pub(super) fn switches(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
         let order = &self.order;
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
@@ -380,7 +381,15 @@ impl Pilot {
         if !rested {
             return;
         }
-        let handle = if order.gear_down != (seen.cockpit.gear_down != 0) {
+        let to_move = match order.nacelles {
+            Nacelles::Stay => false,
+            Nacelles::Forward => tilt_rad < FRAC_PI_2 - 1e-4,
+            Nacelles::Aft => tilt_rad > 1e-4,
+        };
+        let handle = if to_move && seen.cockpit.rpm_select != 0 {
+            // The nacelles move at the helicopter's rotor speed only.
+            Some(ButtonControl::RpmSelect)
+        } else if order.gear_down != (seen.cockpit.gear_down != 0) {
             Some(ButtonControl::GearToggle)
         } else {
             let wanted = flap_detent(order, tilt_rad, seen.cockpit.flap_detent);

@@ -6,6 +6,7 @@ use engine::inputs::World;
 use engine::math::{PI, TAU, ln};
 use engine::{Aircraft, Inputs, State, observe, step};
 use logs::cdr;
+use logs::output::Output;
 use rerun::{LineStrips3D, Radius, Scalars, SeriesLines};
 
 use super::canvas::{Canvas, times};
@@ -59,7 +60,7 @@ const GROWTH: [(&str, &str, u32); 5] = [
 ///
 /// # Errors
 /// When a log cannot be read, or the recording not be written.
-pub fn draw_against(log: &Path, other: Other, saved: &Path) -> Result<Drawn, DrawError> {
+pub fn draw_against(log: &Path, other: Other, saved: &Output) -> Result<Drawn, DrawError> {
     let mut recorded = LoggedFlight::open(log)?;
     let mut other = match other {
         Other::Log(path) => Beside::Log(Box::new(LoggedFlight::open(path)?)),

@@ -1,9 +1,12 @@
 //! A recording that is written to a file, and the first thing that went wrong with it.
 
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::PathBuf;
 
 use engine::STEP_NS;
 use engine::aircraft::Params as Aircraft;
+use logs::output::Output;
+use rerun::external::re_log_encoding::rrd::EncodeError;
 use rerun::{
     RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult, TextLog,
     TimeColumn,
@@ -23,24 +26,30 @@ pub struct Canvas {
     /// The recording.
     pub recording: RecordingStream,
     file: RrdFile,
+    /// As it is named, and where it is until it is finished.
     path: PathBuf,
+    unfinished: PathBuf,
     kind: Subject,
     error: Option<RecordingStreamError>,
 }
 
 impl Canvas {
-    /// Begins the file, with everything that does not move and the viewer's layout.
+    /// Begins the file, which whoever asked for it finishes, with everything that does not move and the viewer's layout.
     pub fn new(
-        path: &Path,
+        out: &Output,
         title: &str,
         kind: Subject,
         drawn: &[(&Look, &Aircraft)],
     ) -> Result<Self, ViewError> {
-        let file = RrdFile::create(path)
+        let path = out.path();
+        let file = out.file().map_err(|error| EncodeError::Write(io::Error::other(error)));
+        let file = file
+            .and_then(RrdFile::new)
             .map_err(|source| ViewError::Write { path: path.into(), source })?;
         let recording = begin(&file, title, kind, drawn)
             .map_err(|source| ViewError::Draw { path: path.into(), source: Box::new(source) })?;
-        Ok(Self { recording, file, path: path.into(), kind, error: None })
+        let unfinished = out.unfinished().into();
+        Ok(Self { recording, file, path: path.into(), unfinished, kind, error: None })
     }
 
     /// Sends rows of an entity.
@@ -73,8 +82,8 @@ impl Canvas {
         self.keep(sent);
         // Waits until everything is in the file.
         let flushed = self.recording.flush_blocking();
-        let Self { file, path, error, .. } = self;
-        let closed = file.close().and_then(|()| Ok(std::fs::metadata(&path)?.len()));
+        let Self { file, path, unfinished, error, .. } = self;
+        let closed = file.close().and_then(|()| Ok(std::fs::metadata(&unfinished)?.len()));
         match (closed, error, flushed) {
             (Err(source), ..) => Err(ViewError::Write { path, source }),
             (_, Some(source), _) => Err(ViewError::Draw { path, source: Box::new(source) }),

@@ -5,7 +5,6 @@
 //! not told at all (0.36.3, both seen). Here the first error is kept for [`RrdFile::close`].
 
 use std::fs::File;
-use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -28,13 +27,10 @@ struct State {
 }
 
 impl RrdFile {
-    /// An empty file in place of what was there.
-    pub fn create(path: &Path) -> Result<Self, EncodeError> {
-        let encoder = Encoder::new_eager(
-            CrateVersion::LOCAL,
-            EncodingOptions::PROTOBUF_COMPRESSED,
-            File::create(path)?,
-        )?;
+    /// Begins a recording in an empty file.
+    pub fn new(file: File) -> Result<Self, EncodeError> {
+        let encoder =
+            Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
         let state = State { encoder: Some(encoder), error: None };
         Ok(Self { state: Arc::new(Mutex::new(state)) })
     }
@@ -77,14 +73,15 @@ mod tests {
     #[test]
     #[cfg(target_os = "linux")]
     fn a_full_disk_is_told() {
-        assert!(matches!(RrdFile::create(Path::new("/dev/full")), Err(EncodeError::Write(_))));
+        let full = File::create("/dev/full").expect("the device");
+        assert!(matches!(RrdFile::new(full), Err(EncodeError::Write(_))));
     }
 
     #[test]
     fn the_first_error_is_told_at_the_end() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("flight.rrd");
-        let file = RrdFile::create(&path).expect("a file");
+        let file = RrdFile::new(File::create(&path).expect("a file")).expect("a recording");
         // From here on the file is open for reading only, and refuses what is written.
         let refusing = Encoder::new_eager(
             CrateVersion::LOCAL,

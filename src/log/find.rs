@@ -1,0 +1,145 @@
+//! `tiltrotor log find`.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail};
+use engine::STEP_S;
+use engine::cockpit;
+use engine::inputs::{DeviceEvent, EventKind, World};
+use logs::fields::{Field, fields};
+use logs::records::Happening;
+use logs::{Ending, FlightReader, LogError, OpenOptions};
+use replay::Outcome;
+
+use crate::status::Status;
+use crate::window::WindowArgs;
+
+/// Kinds beside those of events: what the world's numbers and the buttons did.
+const WORLD: &str = "world";
+const BUTTON: &str = "button";
+
+/// What to look for.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The log
+    log: PathBuf,
+    /// Only this kind: the key of an event (docs/events.md), `world`, or `button`; may stand several times
+    #[arg(long, value_name = "KEY")]
+    kind: Vec<String>,
+    #[command(flatten)]
+    window: WindowArgs,
+}
+
+/// Something that was found.
+struct Found {
+    tick: u64,
+    kind: &'static str,
+    words: String,
+}
+
+/// Prints what happened, and every change of the world and of a button, in order of time.
+pub fn run(args: &Args) -> Result<Status> {
+    let name = args.log.display();
+    let known = || Happening::KEYS.iter().copied().chain([WORLD, BUTTON]);
+    if let Some(odd) = args.kind.iter().find(|kind| !known().any(|key| key == kind.as_str())) {
+        bail!("--kind {odd}: expected one of {}", known().collect::<Vec<_>>().join(", "));
+    }
+    let window = args.window.of(&args.log)?;
+    let across = OpenOptions { aircraft_of: None, across_versions: true };
+    let mut reader = match logs::open(&args.log, across) {
+        // A compacted log is this version's, or nobody's.
+        Err(LogError::Compacted) => logs::open(&args.log, replay::OPEN),
+        opened => opened,
+    }
+    .with_context(|| name.to_string())?;
+    // One that cannot be understood has no buttons with names; what was pressed is told all the same.
+    let map = aircraft::cockpit("cockpit.toml", &reader.setup.cockpit_toml).unwrap_or_default();
+    let (from, until) = (window.from_tick.unwrap_or(0), window.until_tick.unwrap_or(u64::MAX));
+    let mut found = Vec::new();
+    let disorder = search(&mut reader, &map, until, &mut found)?;
+    // Inputs come before what they lead to, and events are told when they are known.
+    found.sort_by_key(|found| found.tick);
+    let wanted = |found: &&Found| {
+        (from..=until).contains(&found.tick)
+            && (args.kind.is_empty() || args.kind.iter().any(|kind| kind == found.kind))
+    };
+    let mut count = 0;
+    for Found { tick, kind, words } in found.iter().filter(wanted) {
+        count += 1;
+        say!("{:>10.3} s  {kind:<16} {words}", *tick as f64 * STEP_S);
+    }
+    if count == 0 {
+        say!("{name}: nothing of the kind happened there");
+    }
+    if let Some(error) = disorder {
+        bail!("{name}: unusable from there on: {error}");
+    }
+    if let Some(Ending::Damaged(why)) = reader.ending() {
+        bail!("{name}: damaged from there on: {why}");
+    }
+    let never_closed = reader.ending() == Some(&Ending::Truncated);
+    let judgement = replay::judge(&args.log, &window);
+    complain!("tiltrotor: {name}: {judgement}");
+    // What cannot be judged can still be read.
+    Ok(match judgement.outcome {
+        Outcome::Unusable if never_closed => Status::NeverClosed,
+        Outcome::Unusable => Status::Done,
+        _ => Status::from(&judgement),
+    })
+}
+
+/// Reads up to a tick and finds everything; what is wrong with the order of messages, if anything.
+fn search(
+    reader: &mut FlightReader,
+    map: &cockpit::Params,
+    until: u64,
+    found: &mut Vec<Found>,
+) -> Result<Option<LogError>> {
+    let mut world = fields(&World::default())?;
+    let disorder = loop {
+        match reader.next_tick() {
+            Ok(Some(tick)) => {
+                found.extend(tick.events.iter().filter_map(|event| button(event, map)));
+                let now = fields(&tick.inputs.world)?;
+                changes(tick.inputs.tick, &world, &now, found);
+                world = now;
+                // What is told of the last tick comes after its state.
+                if tick.record.state.tick > until {
+                    break None;
+                }
+            }
+            Ok(None) => break None,
+            Err(error @ (LogError::Order(_) | LogError::Decode(_))) => break Some(error),
+            Err(error) => return Err(error.into()),
+        }
+        reader.timings.clear();
+    };
+    for (event, remark) in reader.happenings.iter().zip(&reader.remarks) {
+        let kind = Happening::from_u64(event.kind).map_or("unknown", |known| known.facts().key);
+        found.push(Found { tick: event.tick, kind, words: remark.words.clone() });
+    }
+    Ok(disorder)
+}
+
+/// What a button did, by the name of what it does.
+fn button(event: &DeviceEvent, map: &cockpit::Params) -> Option<Found> {
+    if EventKind::from_u64(event.kind) != Some(EventKind::Button) {
+        return None;
+    }
+    let device = usize::try_from(event.device).ok().and_then(|number| map.device.get(number));
+    let bound = device.and_then(|d| d.button.iter().find(|b| b.code == event.code));
+    let name = bound.map_or_else(
+        || format!("0x{:x} of device {}", event.code, event.device),
+        |bound| bound.control.facts().words.to_string(),
+    );
+    let did = if event.value != 0 { "pressed" } else { "released" };
+    Some(Found { tick: event.tick, kind: BUTTON, words: format!("{name} {did}") })
+}
+
+/// Every number of the world that is not what it was.
+fn changes(tick: u64, was: &[Field], now: &[Field], found: &mut Vec<Found>) {
+    for (was, now) in was.iter().zip(now).filter(|(was, now)| was.value != now.value) {
+        let words = format!("{}: {} -> {}", now.path, was.value, now.value);
+        found.push(Found { tick, kind: WORLD, words });
+    }
+}
