@@ -5,9 +5,7 @@
 
 mod common;
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -16,8 +14,7 @@ use common::{
     place_of, text, tiltrotor, verify,
 };
 use logs::records::{HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, TIMING, TimingRecord};
-use mcap::records::MessageHeader;
-use mcap::{Message, WriteOptions};
+use mcap::Message;
 
 /// Six tenths of a second by the pilot model: every verb reflies it, and in debug too.
 const TICKS: usize = 150;
@@ -342,27 +339,22 @@ fn a_channel_of_somebody_else_s_is_compacted_and_comes_back() {
     let place = folder("trust-foreign");
     let (log, compact, back) =
         (place.join("log.mcap"), place.join("compact.mcap"), place.join("back.mcap"));
-    let flown = Forgery::of(flight());
-    let mut bytes = Vec::new();
-    let options = WriteOptions::new().compression(None).profile("ros2");
-    let mut writer = options.create(Cursor::new(&mut bytes)).expect("a writer");
-    flown.metadata.iter().for_each(|record| writer.write_metadata(record).expect("metadata"));
-    flown.attachments.iter().for_each(|file| writer.attach(file).expect("an attachment"));
-    // A type of the name and form that the shape of the aircraft has, too.
-    let schema = writer.add_schema("std_msgs/msg/String", "ros2msg", b"string data\n");
-    let theirs = writer.add_channel(schema.expect("a schema"), "/theirs", "cdr", &BTreeMap::new());
-    let channel_id = theirs.expect("a channel");
-    for (number, message) in flown.messages.iter().enumerate() {
-        writer.write(message).expect("a message");
-        if number % 50 == 0 {
-            let (sequence, log_time) = (number as u32, message.log_time);
-            let header = MessageHeader { channel_id, sequence, log_time, publish_time: log_time };
-            writer.write_to_known_channel(&header, b"\0\x01\0\0\x01\0\0\0\0").expect("a message");
-        }
+    let mut flown = Forgery::of(flight());
+    // A type of the name that the shape of the aircraft has, too, but of another text.
+    let mut foreign = flown.messages[flown.places("/robot_description")[0]].clone();
+    let mut channel = (*foreign.channel).clone();
+    let mut schema = (**channel.schema.as_ref().expect("a schema")).clone();
+    (schema.id, schema.data) = (1000, b"string data # theirs\n".as_slice().into());
+    (channel.id, channel.topic) = (1000, "/theirs".into());
+    channel.schema = Some(Arc::new(schema));
+    foreign.channel = Arc::new(channel);
+    for place in (50..flown.messages.len()).step_by(50) {
+        let mut message = foreign.clone();
+        message.log_time = flown.messages[place].log_time;
+        message.publish_time = message.log_time;
+        flown.messages.insert(place, message);
     }
-    writer.finish().expect("an end");
-    drop(writer);
-    fs::write(&log, bytes).expect("a file");
+    flown.write(&log);
     make("compact", &log, &compact).ends(OK).says("message for message");
     verify(&compact).ends(OK).says(&format!("exact: all {TICKS} ticks"));
     make("expand", &compact, &back).ends(OK);
