@@ -140,7 +140,14 @@ pub fn values(file_name: &str, text: &str) -> Result<Vec<(String, String)>, Conf
     let mut spans = Vec::new();
     leaves("", document.get_ref(), &mut spans);
     let one_line = |span: std::ops::Range<usize>| {
-        text.get(span).map(|value| value.split_whitespace().collect::<Vec<_>>())
+        let value = text.get(span)?;
+        // A comment ends with its line: in an array of several lines it has to go.
+        let several = value.contains('\n');
+        let words = value.lines().flat_map(|line| {
+            let told = if several { line.split('#').next().unwrap_or_default() } else { line };
+            told.split_whitespace()
+        });
+        Some(words.collect::<Vec<_>>())
     };
     let mut values: Vec<_> = spans
         .into_iter()
