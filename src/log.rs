@@ -14,7 +14,7 @@ use anyhow::{Context, Result};
 use engine::STEP_S;
 use logs::evolution::Difference;
 use logs::text::{at, size};
-use logs::{Ending, LogError, Messages, OpenOptions};
+use logs::{Ending, FlightReader, LogError, Messages, OpenOptions};
 use recorder::statistics::Statistics;
 use replay::{Facts, Window};
 
@@ -96,17 +96,7 @@ fn info(log: &Path) -> Result<Status> {
         reader => reader.with_context(|| log.display().to_string())?,
     };
     say!("{}", log.display());
-    say_facts("", &reader.identity.0);
-    if !reader.same_model {
-        say!(
-            "  {:<16} {}; `verify --across-versions` flies it",
-            "this program's",
-            engine::MODEL_VERSION
-        );
-    }
-    for (name, text) in reader.setup.files() {
-        say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
-    }
+    say_who_and_what(&reader);
     let (mut events, mut digest) = (0, 0);
     let mut facts = Facts::of_reading(&reader);
     let start = reader.initial.tick;
@@ -149,6 +139,34 @@ fn info(log: &Path) -> Result<Status> {
         statistics.sent.longest_ms()
     );
     say!("  {:<16} {digest:016x}", "digest");
+    say_beside_the_flight(&reader);
+    facts.end(&reader, disorder.as_ref().map(ToString::to_string), &Window::default());
+    let judgement = facts.judge();
+    say!("  {:<16} {}", "end of the log", ending(disorder, &reader));
+    say!("  {:<16} {judgement}", "judgement");
+    if let Some(origin) = &facts.origin {
+        say!("  {:<16} {origin}", "origin");
+    }
+    Ok(Status::from(&judgement))
+}
+
+/// Who flew, and what is flown with.
+fn say_who_and_what(reader: &FlightReader) {
+    say_facts("", &reader.identity.0);
+    if !reader.same_model {
+        say!(
+            "  {:<16} {}; `verify --across-versions` flies it",
+            "this program's",
+            engine::MODEL_VERSION
+        );
+    }
+    for (name, text) in reader.setup.files() {
+        say!("  {name:<16} {} lines, {} bytes", text.lines().count(), text.len());
+    }
+}
+
+/// What was read beside the ticks: other metadata, fields of another layout, devices, events.
+fn say_beside_the_flight(reader: &FlightReader) {
     for (name, facts) in &reader.other_facts {
         say_facts(&format!("{name}."), facts);
     }
@@ -168,9 +186,10 @@ fn info(log: &Path) -> Result<Status> {
     for remark in &reader.remarks {
         say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }
-    facts.end(&reader, disorder.as_ref().map(ToString::to_string), &Window::default());
-    let judgement = facts.judge();
-    let ending = match (disorder, reader.ending()) {
+}
+
+fn ending(disorder: Option<LogError>, reader: &FlightReader) -> String {
+    match (disorder, reader.ending()) {
         (Some(error), _) => format!("unusable from here: {error}"),
         (None, Some(Ending::Closed)) => "closed".into(),
         (None, Some(Ending::Damaged(why))) => format!("damaged from here: {why}"),
@@ -178,13 +197,7 @@ fn info(log: &Path) -> Result<Status> {
             "recovered: the flight went on, this log does not".into()
         }
         (None, _) => "not closed: killed, or cut".into(),
-    };
-    say!("  {:<16} {ending}", "end of the log");
-    say!("  {:<16} {judgement}", "judgement");
-    if let Some(origin) = &facts.origin {
-        say!("  {:<16} {origin}", "origin");
     }
-    Ok(Status::from(&judgement))
 }
 
 fn summary(log: &Path, window: &WindowArgs) -> Result<Status> {

@@ -76,6 +76,17 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     if let Some(older) = &landing.set_aside {
         say!("           the log that was there before is kept as {}", older.display());
     }
+    beside_the_flight(landing);
+    if !matches!(landing.end, End::Done | End::TimeUp) {
+        say!("end        {}", landing.end);
+    }
+    for refused in &landing.refused {
+        say!("note       {refused}");
+    }
+}
+
+/// What the threads beside the loop met: the log's writer, and the self-check.
+fn beside_the_flight(landing: &Landing) {
     if landing.delay.times > 0 {
         say!(
             "writer     held up {} times, {:.1} s at most; at most {} entries waited, none was lost",
@@ -89,18 +100,12 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
             "self-check {} of {} ticks reflown in flight, {} mismatches, {} ticks dropped; {:.3} s of \
              a spare thread",
             checked.ticks,
-            flown.ticks,
+            landing.statistics.ticks,
             checked.mismatches,
             checked.dropped,
             checked.busy.as_secs_f64()
         );
         line("", &checked.hand_over, "what it cost the loop");
-    }
-    if !matches!(landing.end, End::Done | End::TimeUp) {
-        say!("end        {}", landing.end);
-    }
-    for refused in &landing.refused {
-        say!("note       {refused}");
     }
 }
 

@@ -89,6 +89,7 @@ fn both(half: Load) -> Load {
     half + half.mirrored()
 }
 
+#[expect(clippy::too_many_lines, reason = "the printout of one flight condition, line by line")]
 fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
     let motion = Motion {
         cg_m: Vec3::new(301.2 * FT / 12.0, 0.0, 81.65 * FT / 12.0),

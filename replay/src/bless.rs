@@ -8,7 +8,7 @@ use engine::{STEP_S, State};
 use logs::fields::Value;
 use logs::output::Output;
 use logs::text::at;
-use logs::{Ending, Identity, LogError, OpenOptions, cdr};
+use logs::{Ending, FlightReader, Identity, LogError, OpenOptions, Setup, cdr};
 
 use crate::compare::Names;
 use crate::judgement::{Judgement, Outcome};
@@ -109,6 +109,24 @@ pub fn bless(
     fly(log, identity, aircraft_toml, true)
 }
 
+/// Where the flight begins: as its scenario says, or with its first recorded state.
+fn first_state(reader: &FlightReader, setup: &Setup) -> Result<State, ReplayError> {
+    if reader.initial.tick != 0 {
+        return Ok(reader.initial);
+    }
+    let aircraft = read(setup)?.aircraft;
+    let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
+    Ok(analysis::start::state_at(&start, &aircraft)?)
+}
+
+fn is_closed(reader: &FlightReader) -> Result<(), ReplayError> {
+    match reader.ending() {
+        Some(Ending::Closed) => Ok(()),
+        Some(Ending::Damaged(why)) => Err(refused(&format!("damaged: {why}"))),
+        _ => Err(refused("it was never closed")),
+    }
+}
+
 /// Flies it anew; with `write`, the new flight takes the place of the old one.
 fn fly(
     log: &Path,
@@ -131,13 +149,7 @@ fn fly(
         let what = format!("the log's {error}; --aircraft FILE flies it with a file of today");
         return Err(refused(&what));
     }
-    let initial = if reader.initial.tick == 0 {
-        let aircraft = read(&setup)?.aircraft;
-        let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
-        analysis::start::state_at(&start, &aircraft)?
-    } else {
-        reader.initial
-    };
+    let initial = first_state(&reader, &setup)?;
     let before = logs::closing(log).map_or(0, |(_, digest)| digest);
     let identity = inherited(identity, &reader.identity, before);
     let out = Output::beside(log, true, &[])?;
@@ -175,11 +187,7 @@ fn fly(
         let what = format!("it was changed after the flight: the digest breaks at tick {tick}");
         return Err(refused(&what));
     }
-    match reader.ending() {
-        Some(Ending::Closed) => {}
-        Some(Ending::Damaged(why)) => return Err(refused(&format!("damaged: {why}"))),
-        _ => return Err(refused("it was never closed")),
-    }
+    is_closed(&reader)?;
     let mut moved = Moved {
         groups: seen.largest.into_iter().flatten().collect(),
         first_tick: seen.first_tick,
