@@ -277,7 +277,7 @@ fn an_error_on_standard_output_is_one() {
         &["log", "cat", log],
         &["log", "info", log],
         &["log", "summary", log],
-        &["log", "trim", log, "--force", "--out", text(&out)],
+        &["log", "clip", log, "--until", "50t", "--force", "--out", text(&out)],
         &["log", "compact", log, "--force", "--out", text(&out)],
         &["replay", log, "--speed", "1000"],
         &["trim", "--speed-kt", "0", "--nacelle", "90"],

@@ -95,6 +95,10 @@ pub fn bless(
     if !matches!(source.outcome, Outcome::NotReflown | Outcome::Diverged | Outcome::OutputsDiffer) {
         return Err(refused(&source.words));
     }
+    // Without a tick, only one number over the whole log says so: it may as well be damage.
+    if source.outcome == Outcome::OutputsDiffer && source.first_bad_tick.is_none() {
+        return Err(refused(&source.words));
+    }
     let moved = fly(log, identity.clone(), aircraft_toml, false)?;
     if !write || moved.is_same() && moved.models.0 == moved.models.1 {
         return Ok(moved);

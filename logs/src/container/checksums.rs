@@ -23,6 +23,11 @@ pub fn seal(facts: &mut BTreeMap<String, String>) {
     facts.insert(SEAL.into(), seal);
 }
 
+/// Whether they claim to be sealed.
+pub fn has_seal(facts: &BTreeMap<String, String>) -> bool {
+    facts.contains_key(SEAL)
+}
+
 /// Whether the facts are those that were sealed.
 pub fn is_whole(facts: &BTreeMap<String, String>) -> bool {
     facts.get(SEAL).is_some_and(|seal| *seal == seal_of(facts))

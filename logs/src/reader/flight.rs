@@ -10,7 +10,7 @@ use engine::{Outputs, State};
 use super::ending::{Ending, LastWord, Remade, UNSEALED, last_word};
 use super::stream::Stream;
 use crate::channels::{Chain as InChain, Channel, ChannelId};
-use crate::container::checksums::is_whole;
+use crate::container::checksums::{has_seal, is_whole};
 use crate::container::{LogFile, Record, RecordSource};
 use crate::devices::DeviceIdentity;
 use crate::evolution::{Difference, Mappings};
@@ -143,8 +143,9 @@ impl FlightReader {
             (std::mem::take(&mut record.name), std::mem::take(&mut record.metadata));
         match name.as_str() {
             METADATA if first => {
+                // A flipped bit may make an unsealed format of a sealed one.
                 let sealed = facts.get(Identity::FORMAT).is_none_or(|format| format != UNSEALED);
-                if sealed && !is_whole(&facts) {
+                if (sealed || has_seal(&facts)) && !is_whole(&facts) {
                     self.stream.oddity("the metadata that says who flew is not as written");
                 }
                 self.identity = Identity(facts);
