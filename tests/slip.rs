@@ -64,7 +64,10 @@ impl Picture {
 }
 
 fn begun(arguments: &[&str], picture: &Picture) -> Child {
-    let program = command(arguments)
+    // Whoever runs the tests under `nohup` has SIGHUP ignored: not the flight.
+    let program = Command::new("env")
+        .args(["--default-signal=HUP", env!("CARGO_BIN_EXE_tiltrotor")])
+        .args(arguments)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()

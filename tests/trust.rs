@@ -71,7 +71,7 @@ const KINDS: [Kind; 16] = [
     }),
     ("kernel-time", Is::Altered, "the digest does not follow", |log| {
         let place = place_of::<engine::inputs::DeviceEvent>("kernel_time_ns");
-        log.bytes(HARDWARE, 20)[place] ^= 1;
+        log.bytes(HARDWARE, 2)[place] ^= 1;
     }),
     ("events-swapped", Is::Altered, "the digest does not follow", swap_events),
     ("world", Is::Altered, "altered at tick 41", |log| {
