@@ -14,8 +14,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use common::{
-    INCOMPLETE, LOG_CUT_SHORT, OK, Said, command, folder, hover, text, tiltrotor, understood,
-    verify,
+    INCOMPLETE, LOG_CUT_SHORT, OK, Said, folder, hover, text, tiltrotor, understood, verify,
 };
 use engine::STEP_NS;
 use logs::records::Happening;
