@@ -153,12 +153,20 @@ fn what_other_tools_repaired_beside_the_flight_is_named_and_the_flight_is_kept()
         change(&mut log);
         let broken = place.join(format!("{name}.mcap"));
         log.write(&broken);
-        verify(&broken)
-            .ends(UNUSABLE)
-            .says("exact up to tick 500 of 500")
-            .says("a message beside the flight itself");
-        let kept = recovered(&broken, &place.join(format!("{name}-ok.mcap")));
-        assert_eq!(kept, Ok(500), "{name}");
+        // Changed outputs are seen before the end of the log is.
+        let states = match name {
+            "viewers" => "the states refly to the same bits up to tick 500",
+            _ => "exact up to tick 500 of 500",
+        };
+        verify(&broken).ends(UNUSABLE).says(states).says("a message beside the flight itself");
+        let fixed = place.join(format!("{name}-ok.mcap"));
+        if name == "viewers" {
+            // No digest tells which message it was: it is kept, and what it says is found out.
+            recover(&broken, &fixed).ends(OK);
+            verify(&fixed).ends(DIVERGED).says("outputs differ at tick 100").says(states);
+            continue;
+        }
+        assert_eq!(recovered(&broken, &fixed), Ok(500), "{name}");
     }
 }
 
