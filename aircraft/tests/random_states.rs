@@ -51,12 +51,12 @@ enum Kind {
 }
 
 const RECORDED: [Recorded; 6] = [
-    Recorded { kind: Kind::Flown, first: 0x5112_8d75_d2f8_dd91, all: 0xd6d0_a4e6_ca95_ce02 },
-    Recorded { kind: Kind::Envelope, first: 0x9bbd_aaac_2269_78a1, all: 0xf04f_ac1a_5386_ca09 },
-    Recorded { kind: Kind::Stalled, first: 0x9ea8_1991_dfc0_bcca, all: 0x1383_0d2e_d2ed_ce95 },
-    Recorded { kind: Kind::Zeros, first: 0xf171_1245_541a_6263, all: 0x0dda_4af6_1aee_52aa },
-    Recorded { kind: Kind::Beyond, first: 0x8669_c876_00a9_ef80, all: 0x018b_00a4_2d7c_742d },
-    Recorded { kind: Kind::Broken, first: 0xe02e_33c5_10ad_a01b, all: 0xb01a_a0c3_ee78_e55a },
+    Recorded { kind: Kind::Flown, first: 0x17a8_ce8b_9d2b_4d18, all: 0xe172_2d01_567d_16cf },
+    Recorded { kind: Kind::Envelope, first: 0x037c_a224_ecf7_26cb, all: 0x7108_7719_4fd1_46ee },
+    Recorded { kind: Kind::Stalled, first: 0xebaf_bc9b_fae8_1436, all: 0xd7b3_e874_d4a9_dc04 },
+    Recorded { kind: Kind::Zeros, first: 0xb735_0593_05d9_5b4d, all: 0x4152_aa0e_5de0_1c59 },
+    Recorded { kind: Kind::Beyond, first: 0xbb39_cce5_8f9c_2eb7, all: 0xdf94_41f2_1a71_b75b },
+    Recorded { kind: Kind::Broken, first: 0x652a_eab1_48aa_ea8a, all: 0x7fd1_6ef8_ab88_4c3f },
 ];
 
 /// The bits of what has been seen so far (FNV-1a, by words of eight bytes).
