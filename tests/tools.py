@@ -91,7 +91,7 @@ def as_flown(tiltrotor, log, flown, folder):
     assert status == 0 and ": exact: all " in out, (log, out, err)
     assert digest(out) == flown, (log, out)
     status, out, err = run(tiltrotor, "log", "info", log)
-    assert status == 0 and digest(out) == flown and "closed" in out.splitlines()[-1], (log, out, err)
+    assert status == 0 and digest(out) == flown and "  end of the log   closed" in out.splitlines(), (log, out, err)
     status, out, err = run(tiltrotor, "log", "files", log)
     assert status == 0 and "aircraft.toml" in out, (log, out, err)
     compact = folder / "compact.mcap"

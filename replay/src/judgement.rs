@@ -331,13 +331,12 @@ impl Facts {
             // Whoever changed a log may have changed it so that it diverges before.
             (Some(tick), _) => (Outcome::Altered, Some(tick)),
             (None, Some(tick)) if !self.comparison => (Outcome::Diverged, Some(tick)),
-            // Outputs of a file that is not as it was written say nothing of the program.
-            (None, _) if !self.end.is_readable() => {
-                (Outcome::Damaged, Some(self.last_tick().saturating_add(1)))
-            }
             (None, _) if self.outputs.is_some() && !self.comparison => {
                 let tick = self.outputs.as_ref().and_then(|difference| difference.tick);
                 (Outcome::OutputsDiffer, tick)
+            }
+            (None, _) if !self.end.is_readable() => {
+                (Outcome::Damaged, Some(self.last_tick().saturating_add(1)))
             }
             (None, _) if self.comparison => (Outcome::Compared, None),
             (None, _) => (self.sound(), None),
