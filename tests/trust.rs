@@ -137,7 +137,11 @@ const KINDS: [Kind; 16] = [
     }),
     ("sorted", Is::Damaged, "", |log| {
         // By time alone nothing would move: log times never go back.
-        log.messages.sort_by_key(|message| (message.log_time, topic(message).to_owned()));
+        let beside = |message: &Message| match topic(message) {
+            HARDWARE | INPUTS | STATE => String::new(),
+            topic => topic.to_owned(),
+        };
+        log.messages.sort_by_key(|message| (message.log_time, beside(message)));
     }),
     ("who-flew", Is::Damaged, "the metadata that says who flew is not as written", |log| {
         let facts = log.metadata.iter_mut().find(|record| record.name == "tiltrotor");
