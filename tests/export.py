@@ -120,7 +120,7 @@ def main():
         said = run(tiltrotor, "log", "export", *logs, f"--{form}", str(tables / form))
         # One log of the corpus was never closed: 3. Nothing worse.
         assert said.returncode == 3, said
-        names = re.findall(r"^(.*): (\S+), [\d.]+ MB", said.stdout, re.M)
+        names = re.findall(r"^(.*): (\S+), [\d.]+ [kMG]?B, rows", said.stdout, re.M)
         assert len(names) == len(logs), said.stdout
         assert flights in ({}, dict(names)), "the same names in both forms"
         flights = dict(names)
@@ -167,7 +167,8 @@ def main():
         at = {name: index + 1 for index, (name, _) in enumerate(columns)}
         falling = {row[at["tick"]]: real(row[at["plant_velocity_mps_z"]]) for row in rows}
         # tick, kind, value behind the time.
-        for _, tick, kind, value in found.get("events", ([], []))[1]:
+        for row in found.get("events", ([], []))[1]:
+            tick, kind, value = row[1:4]
             if (kind, value) == (7, 1) and tick - 1 in falling:
                 sinks[flight, tick] = falling[tick - 1]
     assert {row[0]: row[1] for row in answers["load_factor"]} == peaks, "load factors"
