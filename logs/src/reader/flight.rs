@@ -427,6 +427,12 @@ impl FlightReader {
         self.stream.source.compacted()?.flown
     }
 
+    /// For whoever does not look at the outputs that a compacted log's ticks give but every tenth tick: its
+    /// states are flown on so many threads beside this one.
+    pub fn fly_states_only(&mut self, threads: usize) {
+        self.stream.source.fly_states_only(threads);
+    }
+
     /// What is made again of a compacted log beside what was recorded, once the last tick has been read.
     pub fn remade(&self) -> Remade {
         self.remade
