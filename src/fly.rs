@@ -8,7 +8,6 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 use engine::STEP_S;
 use engine::cockpit;
-use flightgear::Link;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use logs::output;
@@ -17,6 +16,7 @@ use recorder::script::Script;
 use recorder::{End, Flight, Landing, Progress, Snapshot, fly};
 
 use crate::claim::Claim;
+use crate::link_args::LinkArgs;
 use crate::status::Status;
 use crate::{condition, identity, numbers, report};
 
@@ -98,22 +98,16 @@ pub struct Common {
     /// Overwrite an existing log
     #[arg(long)]
     pub force: bool,
-    /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
-    /// [default: 127.0.0.1:5501; nothing is sent with --fast]
-    #[arg(long, value_name = "HOST:PORT")]
-    flightgear: Option<String>,
-    /// Send nothing to FlightGear
-    #[arg(long, conflicts_with = "flightgear")]
-    no_flightgear: bool,
+    #[command(flatten)]
+    pub link: LinkArgs,
 }
 
 impl Common {
-    /// Where the pictures go. A flight as fast as it goes would fly over somebody's flight in real time.
-    fn destination(&self) -> Option<&str> {
-        match &self.flightgear {
-            Some(destination) => Some(destination),
-            None if self.no_flightgear || self.fast => None,
-            None => Some(flightgear::DEFAULT_DESTINATION),
+    /// Keeps the last picture up in FlightGear, for as long as it is to be.
+    pub fn hold(&self, landing: &mut Landing) -> Result<()> {
+        match landing.hold.take() {
+            Some(hold) => self.link.keep(hold).map(|_| ()),
+            None => Ok(()),
         }
     }
 }
@@ -157,8 +151,9 @@ pub fn run(args: &Args) -> Result<Status> {
         bail!("the {name} pilot never lands: give --duration SECONDS with --fast");
     }
     let real_time = plan.flight.real_time;
-    let landing = plan.fly()?;
+    let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
+    args.common.hold(&mut landing)?;
     Ok(if is_whole(&landing) { Status::Done } else { Status::CutShort })
 }
 
@@ -176,7 +171,7 @@ pub struct Plan {
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
     /// Where its pictures go.
-    _claim: Option<Claim>,
+    _claims: Vec<Claim>,
 }
 
 impl Plan {
@@ -197,8 +192,7 @@ impl Plan {
             );
         }
         let robot_description = aircraft::urdf(&aircraft);
-        let link = common.destination().map(Link::new).transpose()?;
-        let claim = common.destination().map(Claim::of);
+        let (link, claims) = common.link.open(common.fast)?.unzip();
         let inputs: Vec<&Path> =
             [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
         output::refuse(&common.out, common.force, &inputs)?;
@@ -207,7 +201,7 @@ impl Plan {
         Ok(Self {
             pipe,
             phases: Vec::new(),
-            _claim: claim,
+            _claims: claims.unwrap_or_default(),
             flight: Flight {
                 aircraft,
                 start,
@@ -290,7 +284,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, _claim } = self;
+        let Self { flight, pipe: _pipe, phases, _claims } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();

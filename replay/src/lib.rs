@@ -8,6 +8,7 @@ mod divergence;
 pub mod growth;
 pub mod judgement;
 mod outputs;
+pub mod playback;
 mod refly;
 mod rewrite;
 mod source;
@@ -27,6 +28,7 @@ pub use diff::{
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use judgement::{End, Facts, Judgement, Outcome, judge};
 pub use outputs::OutputsDifference;
+pub use playback::Playback;
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
 pub use rewrite::{NewLog, Rewritten, names_parent, parent, rewrite, rewrite_in};
 pub use source::Source;
