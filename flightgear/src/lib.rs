@@ -15,8 +15,13 @@
 //!
 //! Nothing here reaches the flight model: packets are made from what a step gave, after the step.
 
+pub mod channel;
+mod display;
 pub mod link;
 pub mod net_fdm;
+mod scene;
 
+pub use channel::{Channel, ChannelError};
 pub use link::{DEFAULT_DESTINATION, Link, LinkError};
 pub use net_fdm::{NetFdm, PacketError};
+pub use scene::{Lamps, Recording, Scene};
