@@ -31,7 +31,7 @@ struct Model {
 pub fn xml(aircraft: &Aircraft) -> String {
     let cg = aircraft.weight_balance.cg_m;
     let text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-                <!-- Written by `cargo run --example xv15_package`. -->\n\
+                <!-- Written by the example xv15_package of flightgear-package. -->\n\
                 <PropertyList>\n <path>xv15.ac</path>\n";
     let mut model = Model { text: text.to_owned(), origin_m: [cg.x, cg.y, cg.z] };
     model.shown();

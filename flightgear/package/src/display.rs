@@ -34,7 +34,7 @@ pub fn set(aircraft: &Aircraft) -> String {
 pub fn numbers(aircraft: &Aircraft) -> String {
     let envelope = &aircraft.envelope;
     let mut text = String::from(
-        "# Written by `cargo run --example xv15_package` from the aircraft file.\n\n\
+        "# Written by the example xv15_package of flightgear-package from the aircraft file.\n\n\
          # The conversion corridor: [nacelle, deg; calibrated airspeed, kt].\n",
     );
     let corridor = &envelope.corridor;

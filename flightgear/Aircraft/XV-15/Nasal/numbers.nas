@@ -1,4 +1,4 @@
-# Written by `cargo run --example xv15_package` from the aircraft file.
+# Written by the example xv15_package of flightgear-package from the aircraft file.
 
 # The conversion corridor: [nacelle, deg; calibrated airspeed, kt].
 var corridor_slow = [[90, 0], [85.1, 0], [85, 64], [76, 64], [68, 80], [60.5, 90], [47, 102], [29, 115], [16, 123], [0, 129]];
