@@ -91,7 +91,7 @@ pub const MATERIALS: &[Material] = &[
     lit("light red", [1.0, 0.10, 0.06]),
     lit("light green", [0.08, 1.0, 0.25]),
     lit("light white", [1.0, 0.98, 0.92]),
-    lit("glow", [1.0, 0.42, 0.10]),
+    lit("glow", [0.62, 0.20, 0.05]),
     Material {
         name: "disc",
         colour: [0.35, 0.36, 0.38],

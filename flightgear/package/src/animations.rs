@@ -15,12 +15,16 @@ use engine::math::{TAU, cos, sin};
 use engine::units::DEG_PER_RAD;
 
 use crate::ac3d::number;
-use crate::mesh::{Point, add, scale, sub};
+use crate::mesh::{Point, sub};
 use crate::shape::{SIDES, cockpit, gear, lights, nacelle, rotor, tail, wing};
 
 /// Blades are seen below this rotor speed, the blur above the second.
 const BLADES_RPM_MAX: f64 = 240.0;
 const BLUR_RPM_MIN: f64 = 110.0;
+/// Flaps, and how far the flaperons droop with them, deg. `TMX §3.3`
+const FLAPERON_DROOP_DEG: [[f64; 2]; 4] = [[0.0, 0.0], [20.0, 12.5], [40.0, 25.0], [75.0, 47.0]];
+/// How far inward a main leg folds, m: the pods' axes are inside the wheels'.
+const FOLDS_INWARD_M: f64 = 0.15;
 
 struct Model {
     text: String,
@@ -196,8 +200,13 @@ impl Model {
         let surface = |what: &str| format!("tiltrotor/surface/{what}");
         self.hinge("flap.left", &surface("flap-deg"), 1.0, mirrored(flap));
         self.hinge("flap.right", &surface("flap-deg"), 1.0, flap);
-        self.hinge("flaperon.left", &surface("flaperon-deg[0]"), 1.0, mirrored(flaperon));
-        self.hinge("flaperon.right", &surface("flaperon-deg[1]"), 1.0, flaperon);
+        for (i, name, line) in [(0, "left", mirrored(flaperon)), (1, "right", flaperon)] {
+            let name = format!("flaperon.{name}");
+            self.hinge(&name, &surface(&format!("flaperon-deg[{i}]")), 1.0, line);
+            // What is sent is beyond the setting of the flaps, with which they droop.
+            let droop = Law::Table(&FLAPERON_DROOP_DEG);
+            self.turn(&[name], &surface("flap-deg"), &droop, sub(line[1], line[0]), line[0]);
+        }
         self.hinge("elevator", &surface("elevator-deg"), 1.0, tail::elevator_hinge_m(aircraft));
         let rudder = tail::rudder_hinge_m(aircraft);
         let left = rudder.map(|[aft, right, up]| [aft, -right, up]);
@@ -219,6 +228,16 @@ impl Model {
                 [0.0, 1.0, 0.0],
                 leg.hinge_m,
             );
+            let inward = leg.axle_m[1].signum() * -FOLDS_INWARD_M;
+            if leg.unit != 0 {
+                let rest = format!(
+                    "  <property>{}</property>\n{}{}",
+                    unit("position-norm"),
+                    Law::Table(&[[0.0, inward], [0.15, inward], [0.6, 0.0], [1.0, 0.0]]).xml("m"),
+                    vector("axis", [0.0, 1.0, 0.0], "")
+                );
+                self.animation("translate", &all, &rest);
+            }
             let low = ["fork", "wheels"].map(part);
             if leg.unit == 0 {
                 self.turn(&low, &unit("steer-deg"), &Law::Times(-1.0), [0.0, 0.0, 1.0], leg.axle_m);
@@ -332,7 +351,6 @@ impl Model {
                 [0.0, 0.0, 1.0],
             );
         }
-        let _ = add(scale([0.0; 3], 0.0), [0.0; 3]);
     }
 }
 

@@ -257,7 +257,7 @@ pub fn livery(shape: &Fuselage) -> Vec<u8> {
     let words = [false, true].map(|right_side| {
         [
             Word::new("XV-15", [9.35, 2.05], 0.40, BLUE, right_side),
-            Word::new("TILTROTOR", [10.3, 1.42], 0.125, WHITE, right_side),
+            Word::new("TILTROTOR", [10.6, 1.735], 0.105, WHITE, right_side),
         ]
     });
     let [first, last] = livery.aft_m;

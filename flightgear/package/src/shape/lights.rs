@@ -2,7 +2,7 @@
 
 use engine::aircraft::Params as Aircraft;
 
-use super::{SIDES, nacelle, ring};
+use super::{nacelle, ring};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Mesh, Point, add};
 use crate::paint;
@@ -64,7 +64,6 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     mesh.face(material::LIGHT_WHITE, &lamp);
     parts.push(Part::new("landing.lamp", mesh.two_sided()));
     parts.push(beam());
-    let _ = SIDES;
     parts
 }
 
