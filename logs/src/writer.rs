@@ -18,7 +18,8 @@ use crate::container::{RECORD_BYTES_MAX, stamped};
 use crate::devices::DeviceIdentity;
 use crate::reader::Message;
 use crate::records::{
-    Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest,
+    Chain, EventRecord, Happening, InputsRecord, RestartRecord, StateRecord, TimingRecord,
+    first_digest,
 };
 use crate::schema::{self, MessageType};
 use crate::setup::{
@@ -128,6 +129,14 @@ impl FlightWriter {
             message: Vec::with_capacity(8192),
             shape: view::Shape::default(),
         })
+    }
+
+    /// The state with which the tick under way begins in place of the last one; the tick's first message.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn restart(&mut self, restart: &RestartRecord) -> Result<(), LogError> {
+        self.record(ChannelId::Restart, restart.state.tick, restart)
     }
 
     /// A device event of the tick under way.
