@@ -18,7 +18,7 @@ pub struct Args {
 /// Flies, verifies, saves for the viewer, and sums up.
 pub fn run(args: &Args) -> Result<Status> {
     let out = &args.common.out;
-    let mut plan = Plan::new(&args.common)?;
+    let mut plan = Plan::new(&args.common, None)?;
     plan.flight.self_check = true;
     #[cfg(feature = "rerun")]
     let saved = out.with_extension("rrd");
@@ -39,7 +39,7 @@ pub fn run(args: &Args) -> Result<Status> {
     if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
         say!("Live in FlightGear at {}.", link.destination());
     }
-    let real_time = plan.flight.real_time;
+    let real_time = plan.flight.real_time.is_some();
     let landing = plan.fly()?;
     report::landing(&landing, real_time, &out.display().to_string());
     if landing.log.is_err() {

@@ -5,6 +5,7 @@ mod console;
 
 mod claim;
 mod condition;
+mod controls;
 mod demo;
 mod diff;
 mod fly;
@@ -14,6 +15,7 @@ mod linearize;
 mod log;
 mod made;
 mod numbers;
+mod panel;
 mod replay_live;
 mod report;
 mod status;

@@ -32,6 +32,10 @@ pub const DEVICES: &str = "/devices";
 /// States that took the place of the one that was flown, before the step of their tick.
 pub const RESTART: &str = "/restart";
 
+/// Name of the metadata record with how the flight kept time, at the end of its log: counts, and for
+/// each kind of duration a histogram, as the greatest duration of each step in ns and how many there were.
+pub const TIMING_FACTS: &str = "tiltrotor_timing";
+
 /// The world during one tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputsRecord {
@@ -271,7 +275,8 @@ engine::enumeration! {
         }
         /// A situation was saved, to be loaded again.
         SituationSaved = 21 {
-            key: "situation_saved", value: "its number in the flight", levels: Levels::always(Level::Info),
+            key: "situation_saved", value: "its number in the flight, 0 when it could not be saved",
+            levels: Levels::with_zero(Level::Warn, Level::Info),
         }
     }
 }

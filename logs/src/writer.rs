@@ -25,7 +25,7 @@ use crate::schema::{self, MessageType};
 use crate::setup::{
     CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, Setup,
 };
-use crate::view;
+use crate::view::{self, Level};
 use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
@@ -45,7 +45,12 @@ pub struct FlightWriter {
     last_tick: u64,
     message: Vec<u8>,
     shape: view::Shape,
+    /// Hears what is told in words.
+    listener: Option<Listener>,
 }
+
+/// Hears what is told in words: tick, level, words.
+pub type Listener = Box<dyn FnMut(u64, Level, &str) + Send>;
 
 /// How a log ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,6 +133,7 @@ impl FlightWriter {
             last_tick: 0,
             message: Vec::with_capacity(8192),
             shape: view::Shape::default(),
+            listener: None,
         })
     }
 
@@ -197,12 +203,31 @@ impl FlightWriter {
         words: &str,
     ) -> Result<(), LogError> {
         let level = what.facts().levels.of(value);
+        if let Some(listener) = &mut self.listener {
+            listener(tick, level, words);
+        }
         let record = EventRecord { tick, kind: what as u64, value, measured };
         // What is found out later is told later: log times never go back.
         let told_tick = tick.max(self.last_tick);
         self.record(ChannelId::Events, told_tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;
         self.put(ChannelId::Log, told_tick, &message)
+    }
+
+    /// Lets somebody hear what is told in words from now on.
+    pub fn tell(&mut self, listener: Listener) {
+        self.listener = Some(listener);
+    }
+
+    /// Facts that no flight depends on, under a name of their own; for the end of the log.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn facts(&mut self, name: &str, facts: &BTreeMap<String, String>) -> Result<(), LogError> {
+        let mut metadata = facts.clone();
+        seal(&mut metadata);
+        let record = mcap::records::Metadata { name: name.into(), metadata };
+        Ok(self.mcap.write_metadata(&record)?)
     }
 
     /// A message of another log as it stands there; `false` when no channel of ours is called so.

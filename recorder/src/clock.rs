@@ -24,6 +24,21 @@ pub fn wall_ns() -> u64 {
 /// Later than this, and the clock is anchored anew, ns: nothing is flown in a burst on stale hands.
 pub const SLIP_LIMIT_NS: u64 = 100_000_000;
 
+/// How a flight keeps time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RealTime {
+    /// Later than this, and the clock is anchored anew, ns.
+    pub slip_limit_ns: u64,
+    /// The processor on which the loop stays; wherever the system puts it without.
+    pub cpu: Option<usize>,
+}
+
+impl Default for RealTime {
+    fn default() -> Self {
+        Self { slip_limit_ns: SLIP_LIMIT_NS, cpu: None }
+    }
+}
+
 /// When the ticks are due.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
@@ -44,7 +59,12 @@ pub struct Woken {
 impl Pace {
     /// Real time; tick 0 is due now.
     pub fn starting_now() -> Self {
-        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns: SLIP_LIMIT_NS }
+        Self::with_slip_limit(SLIP_LIMIT_NS)
+    }
+
+    /// The same with another limit of a slip.
+    pub fn with_slip_limit(slip_limit_ns: u64) -> Self {
+        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns }
     }
 
     /// So many times faster than real time; tick 0 is due now.
@@ -111,16 +131,28 @@ impl Awake {
     }
 }
 
-/// Asks for real-time scheduling of this thread and memory that is never paged out; returns what was
-/// not granted, in words.
-pub fn claim_real_time() -> Vec<String> {
+/// Keeps this thread on one processor.
+fn stay_on(cpu: usize) -> Result<(), String> {
+    let mut set = rustix::thread::CpuSet::new();
+    if cpu >= rustix::thread::CpuSet::MAX_CPU {
+        return Err(format!("processor {cpu}: there is none of that number"));
+    }
+    set.set(cpu);
+    rustix::thread::sched_setaffinity(None, &set)
+        .map_err(|error| format!("the loop does not stay on processor {cpu}: {error}"))
+}
+
+/// Asks for real-time scheduling of this thread, memory that is never paged out, and the processor that
+/// is asked for; returns what was not granted, in words.
+pub fn claim_real_time(wanted: &RealTime) -> Vec<String> {
     use thread_priority::unix::{
         RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy,
         thread_native_id,
     };
     use thread_priority::{ThreadPriority, ThreadPriorityValue};
 
-    let mut refused = Vec::new();
+    let mut refused: Vec<String> =
+        wanted.cpu.into_iter().filter_map(|cpu| stay_on(cpu).err()).collect();
     let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
     let priority = ThreadPriorityValue::try_from(40_u8).map(ThreadPriority::Crossplatform);
     let scheduled = priority.is_ok_and(|priority| {

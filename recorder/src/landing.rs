@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use engine::Outputs;
 use logs::{Closed, LogError};
 
+use crate::debrief::Debrief;
 use crate::end::End;
 use crate::self_check::Checked;
 use crate::statistics::Statistics;
@@ -15,6 +16,8 @@ use crate::writer::Delay;
 pub struct Landing {
     /// How it kept time.
     pub statistics: Statistics,
+    /// What the pilot hears of it.
+    pub debrief: Debrief,
     /// The log, or why it ends early.
     pub log: Result<Closed, LogError>,
     /// An older log of the same name, when this one could not take its place.

@@ -186,8 +186,7 @@ fn crew_said(
             | Happening::Landed
             | Happening::GaveUp
             | Happening::SituationSaved),
-        ) =
-            Happening::from_u64(event.kind)
+        ) = Happening::from_u64(event.kind)
         {
             writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
         }
