@@ -440,7 +440,8 @@ fn no_script_breaks_its_reader_and_what_it_accepts_can_be_played() {
                 let (events, world) = (&mut events, &mut world);
                 let (mut phase, mut gave_up) = ((0, ""), None);
                 let (phase, done, gave_up) = (&mut phase, &mut done, &mut gave_up);
-                let mut reach = Reach { tick, events, world, phase, done, gave_up };
+                let (restart, save) = (&mut None, &mut false);
+                let mut reach = Reach { tick, events, world, phase, done, gave_up, restart, save };
                 script.act(&seen, &mut reach);
             }
         },

@@ -123,6 +123,10 @@ pub fn rewrite_in(
         }
         while reader.next_tick()?.is_some() {
             let tick = &reader.tick;
+            if let Some(restart) = &tick.restart {
+                writer.restart(restart)?;
+                narrator.restart(&mut writer, restart)?;
+            }
             for event in &tick.events {
                 writer.event(event)?;
                 narrator.event(&mut writer, event)?;
@@ -133,7 +137,7 @@ pub fn rewrite_in(
             crew_said(reader, &mut writer, &mut touchdown_ticks)?;
             let tick = &reader.tick;
             let inputs = Inputs { events: &tick.events, world: inputs.world };
-            let (next, outputs) = step(aircraft, &state, &inputs);
+            let (next, outputs) = step(aircraft, &tick.begins_with(&state), &inputs);
             state = next;
             for timing in reader.timings.drain(..).filter(|_| new.timing) {
                 writer.timing(&timing)?;
@@ -177,8 +181,12 @@ fn crew_said(
         |event: &&EventRecord| event.kind == Happening::WeightOnWheels as u64 && event.value == 1;
     touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
     for (event, remark) in happenings.iter().zip(&remarks) {
-        if let Some(what @ (Happening::Phase | Happening::Landed | Happening::GaveUp)) =
-            Happening::from_u64(event.kind)
+        if let Some(
+            what @ (Happening::Phase
+            | Happening::Landed
+            | Happening::GaveUp
+            | Happening::SituationSaved),
+        ) = Happening::from_u64(event.kind)
         {
             writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
         }

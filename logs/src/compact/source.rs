@@ -13,7 +13,7 @@ use super::{HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
 use crate::container::checksums::add_message;
 use crate::container::{Compacted, LogFile, Record, RecordSource, Schema, stamped};
-use crate::records::{STATE, StateRecord};
+use crate::records::{RESTART, STATE, StateRecord};
 use crate::setup::{Identity, METADATA};
 use crate::{LogError, cdr};
 
@@ -283,6 +283,10 @@ impl Expander {
             self.stand_at(&data)?;
             self.states += 1;
             self.reflown = false;
+        } else if Some(&header.channel_id) == self.ids.get(RESTART)
+            && let Some(flier) = &mut self.flier
+        {
+            flier.takes(ChannelId::Restart, &data)?;
         }
         *record = Record::Message(header, data);
         Ok(())
