@@ -6,7 +6,7 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use divan::Bencher;
@@ -14,6 +14,7 @@ use divan::counter::ItemsCount;
 use engine::inputs::World;
 use engine::start::Start;
 use engine::{Aircraft, Inputs, State, step};
+use logs::compact::Copied;
 use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Observed, Setup};
@@ -135,14 +136,21 @@ fn verify_a_minute(bencher: Bencher) {
     let _ = fs::remove_file(log);
 }
 
+/// Compacts a log, with a state every two seconds.
+fn compacted(log: &Path, out: &Path) -> Copied {
+    let output = Output::beside(out, true, &[log]).expect("a place");
+    let made = logs::compact::compact(log, &output, 500, replay::flown, |_| ());
+    output.finish().expect("in its place");
+    made.expect("a compacted log")
+}
+
 /// Ten minutes of flight, and the same compacted: flown once for all that is done with them.
 fn ten_minutes() -> &'static (PathBuf, PathBuf) {
     static LOGS: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
     LOGS.get_or_init(|| {
         let log = flown("long", LONG_TICKS).0;
         let compact = scratch("long-compact");
-        let made = logs::compact::compact(&log, &compact, true, 500, replay::flown, |_| ());
-        let bytes = made.expect("a compacted log").bytes as f64;
+        let bytes = compacted(&log, &compact).bytes as f64;
         eprintln!("compacted: {:.1} B a tick", bytes / LONG_TICKS as f64);
         (log, compact)
     })
@@ -163,9 +171,7 @@ fn verify_ten_minutes(bencher: Bencher, form: &str) {
 fn compact_ten_minutes(bencher: Bencher) {
     let (whole, _) = ten_minutes();
     let out = scratch("compacted");
-    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| {
-        logs::compact::compact(whole, &out, true, 500, replay::flown, |_| ()).expect("a log")
-    });
+    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| compacted(whole, &out));
     let _ = fs::remove_file(out);
 }
 
