@@ -445,7 +445,8 @@ fn no_script_breaks_its_reader_and_what_it_accepts_can_be_played() {
                 let (events, world) = (&mut events, &mut world);
                 let (mut phase, mut gave_up) = ((0, ""), None);
                 let (phase, done, gave_up) = (&mut phase, &mut done, &mut gave_up);
-                let mut reach = Reach { tick, events, world, phase, done, gave_up };
+                let (restart, save) = (&mut None, &mut false);
+                let mut reach = Reach { tick, events, world, phase, done, gave_up, restart, save };
                 script.act(&seen, &mut reach);
             }
         },
@@ -454,7 +455,11 @@ fn no_script_breaks_its_reader_and_what_it_accepts_can_be_played() {
 
 #[test]
 fn no_packet_breaks_its_reader() {
-    let packet = NetFdm::from_outputs(&Outputs::default());
+    let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("our own file");
+    let (outputs, world) = (Outputs::default(), World::default());
+    let lamps = flightgear::Lamps::default();
+    let scene = flightgear::Scene { aircraft: &aircraft, outputs: &outputs, world: &world, lamps };
+    let packet = NetFdm::of(&scene);
     fuzz(
         "packet",
         20_000,
@@ -464,6 +469,18 @@ fn no_packet_breaks_its_reader() {
                 // Read back as it came, and finite where we look.
                 assert_eq!(packet.bytes(), bytes);
                 assert!(packet.longitude_deg().is_finite() && packet.latitude_deg().is_finite());
+            }
+        },
+    );
+    let channel = flightgear::Channel::of(&scene);
+    fuzz(
+        "channel packet",
+        20_000,
+        |dice| mutated(channel.bytes(), dice),
+        |bytes| {
+            if let Ok(channel) = flightgear::Channel::parse(bytes) {
+                assert_eq!(channel.bytes(), bytes);
+                assert!(channel.values().all(|(_, _, value)| value.is_finite()));
             }
         },
     );

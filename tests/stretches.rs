@@ -61,7 +61,7 @@ const CHANGES: [(&str, Outcome, Change); 14] = [
     }),
     ("world", Outcome::Diverged, |log| {
         let place = place_of::<InputsRecord>("world.wind_mps.x");
-        log.bytes(INPUTS, 200)[place + 6] ^= 0x10;
+        log.bytes(INPUTS, 200)[place..place + 8].copy_from_slice(&3.0_f64.to_le_bytes());
         chain_anew(log);
     }),
     ("kernel-time", Outcome::Altered, |log| {

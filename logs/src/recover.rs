@@ -201,7 +201,7 @@ impl Witness {
     fn confirms(&mut self, message: &Message) -> Result<bool, LogError> {
         let Some(channel) = message.channel().filter(|_| self.together) else { return Ok(true) };
         match channel.compacted {
-            Compacted::Rows => self.flier.takes(channel.id, &message.data)?,
+            Compacted::Rows | Compacted::Kept => self.flier.takes(channel.id, &message.data)?,
             Compacted::Reflown => self.state(message)?,
             Compacted::Remade => {
                 self.again.clear();
@@ -214,7 +214,6 @@ impl Witness {
                 }
                 return Ok(next && same);
             }
-            Compacted::Kept => {}
         }
         Ok(true)
     }

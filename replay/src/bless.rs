@@ -170,6 +170,9 @@ fn fly(
     let mut failure = None;
     let mut gathered = Gathered::from(&initial);
     let rewritten = rewrite(&mut reader, &initial, &new, |tick, state, outputs, reader| {
+        if let Some(restart) = &tick.restart {
+            gathered.restart(&restart.state);
+        }
         gathered.add(state, outputs);
         outputs_check.computed(outputs);
         if are_todays(reader)

@@ -233,10 +233,13 @@ impl Reflight {
             if seen {
                 self.outputs = *outputs;
             }
-        } else if seen {
-            (self.state, self.outputs) = step(&self.aircraft, &self.state, &inputs);
         } else {
-            step_state(&self.aircraft, &mut self.state, &inputs);
+            self.state = tick.begins_with(&self.state);
+            if seen {
+                (self.state, self.outputs) = step(&self.aircraft, &self.state, &inputs);
+            } else {
+                step_state(&self.aircraft, &mut self.state, &inputs);
+            }
         }
     }
 

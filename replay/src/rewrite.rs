@@ -130,6 +130,10 @@ pub fn rewrite_in(
         }
         while reader.next_tick()?.is_some() {
             let tick = &reader.tick;
+            if let Some(restart) = &tick.restart {
+                writer.restart(restart)?;
+                narrator.restart(&mut writer, restart)?;
+            }
             for event in &tick.events {
                 writer.event(event)?;
                 narrator.event(&mut writer, event)?;
@@ -143,7 +147,7 @@ pub fn rewrite_in(
             }
             let tick = &reader.tick;
             let inputs = Inputs { events: &tick.events, world: inputs.world };
-            let (next, outputs) = step(aircraft, &state, &inputs);
+            let (next, outputs) = step(aircraft, &tick.begins_with(&state), &inputs);
             state = next;
             for timing in reader.timings.drain(..).filter(|_| new.timing) {
                 writer.timing(&timing)?;
@@ -190,11 +194,12 @@ fn crew_said(
     touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
     for (event, remark) in happenings.iter().zip(&remarks) {
         let Some(what) = Happening::from_u64(event.kind) else { continue };
-        let known_by_machine = matches!(
+        let known_by_machine =
+            matches!(what, Happening::Slip | Happening::WriterHeldUp | Happening::SelfCheck);
+        let by_crew = matches!(
             what,
-            Happening::Slip | Happening::WriterHeldUp | Happening::SelfCheck
+            Happening::Phase | Happening::Landed | Happening::GaveUp | Happening::SituationSaved
         );
-        let by_crew = matches!(what, Happening::Phase | Happening::Landed | Happening::GaveUp);
         if by_crew || timing && known_by_machine {
             writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
         }

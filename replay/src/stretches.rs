@@ -75,6 +75,9 @@ impl Stretch {
         for (place, tick) in self.ticks[..self.length].iter().enumerate() {
             let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
             let mut seen = None;
+            if let Some(restart) = &tick.restart {
+                state = restart.state;
+            }
             if state.tick.wrapping_add(1).is_multiple_of(outputs_ticks) {
                 let (next, outputs) = step(aircraft, &state, &inputs);
                 (state, seen) = (next, Some((place, outputs)));

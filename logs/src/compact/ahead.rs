@@ -23,10 +23,15 @@ pub struct Crew {
     pub blocks: usize,
 }
 
+/// States that take the place of those that were flown, each with its number among the messages that stand
+/// as they were.
+pub type Restarts = Vec<(usize, State)>;
+
 /// A block to be flown.
 struct Job {
     from: State,
     block: Arc<Block>,
+    restarts: Restarts,
     done: Sender<Vec<FlownTick>>,
 }
 
@@ -41,9 +46,9 @@ impl Crew {
             thread::spawn(move || {
                 loop {
                     let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).recv();
-                    let Ok(Job { from, block, done }) = next else { break };
+                    let Ok(Job { from, block, restarts, done }) = next else { break };
                     // Nobody waits for it any more: so be it.
-                    let _ = done.send(fly(&flown, from, &block));
+                    let _ = done.send(fly(&flown, from, &block, &restarts));
                 }
             });
         }
@@ -51,14 +56,20 @@ impl Crew {
     }
 
     /// Has a block flown from the state before it.
-    pub fn fly(&self, from: State, block: &Arc<Block>) -> Option<Receiver<Vec<FlownTick>>> {
+    pub fn fly(
+        &self,
+        from: State,
+        block: &Arc<Block>,
+        restarts: Restarts,
+    ) -> Option<Receiver<Vec<FlownTick>>> {
         let (done, flown) = channel();
-        self.jobs.send(Job { from, block: Arc::clone(block), done }).ok().map(|()| flown)
+        self.jobs.send(Job { from, block: Arc::clone(block), restarts, done }).ok().map(|()| flown)
     }
 }
 
 /// Flies a block by its rows; as far as they can be read, who reads the block says what is wrong.
-fn fly(of: &Flown, mut state: State, block: &Block) -> Vec<FlownTick> {
+fn fly(of: &Flown, mut state: State, block: &Block, restarts: &Restarts) -> Vec<FlownTick> {
+    let mut plain = 0;
     let channels: Vec<&Channel> = compacted(Compacted::Rows).collect();
     let mut row = vec![0; block.rows.len()];
     let mut events: Vec<DeviceEvent> = Vec::new();
@@ -98,7 +109,13 @@ fn fly(of: &Flown, mut state: State, block: &Block) -> Vec<FlownTick> {
                 events.clear();
                 flown.push(FlownTick { state, outputs });
             }
-            Op::Plain | Op::View(_) | Op::ChunkEnd => {}
+            Op::Plain => {
+                if let Some((_, restart)) = restarts.iter().find(|(number, _)| *number == plain) {
+                    state = *restart;
+                }
+                plain += 1;
+            }
+            Op::View(_) | Op::ChunkEnd => {}
         }
     }
     flown

@@ -183,12 +183,14 @@ pub fn refuse_other_layout(
     let types: BTreeMap<u16, &Schema> = types.collect();
     for record in head {
         let Record::Channel(definition) = record else { continue };
-        let ours = ChannelOfOurs::of(&definition.topic).filter(|ours| hows.contains(&ours.compacted));
+        let ours =
+            ChannelOfOurs::of(&definition.topic).filter(|ours| hows.contains(&ours.compacted));
         let (Some(ours), Some(theirs)) = (ours, types.get(&definition.schema_id)) else { continue };
         let kind = ours.message_type()?;
         let layout = || std::str::from_utf8(&theirs.text).ok().and_then(Layout::parse);
         let same = theirs.text == kind.text.as_bytes()
-            || kind.layout.is_some() && layout().as_ref().map(by_todays_names) == kind.layout.as_deref().cloned();
+            || kind.layout.is_some()
+                && layout().as_ref().map(by_todays_names) == kind.layout.as_deref().cloned();
         if !same {
             let get = |key| identity.get(key);
             return Err(LogError::Layout {

@@ -7,7 +7,7 @@ use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Inputs, Outputs, State, observe, step, step_state};
 
 use crate::channels::{Channel, ChannelId, Written};
-use crate::records::{InputsRecord, StateRecord};
+use crate::records::{InputsRecord, RestartRecord, StateRecord};
 use crate::setup::Setup;
 use crate::view::Shape;
 use crate::{LogError, cdr};
@@ -44,6 +44,8 @@ pub struct Flier {
     pub state: State,
     /// After the last tick, as it was flown.
     pub flown: Option<(State, Outputs)>,
+    /// What takes the place of the state in the tick under way.
+    restart: Option<State>,
     events: Vec<DeviceEvent>,
     inputs: InputsRecord,
     outputs: VecDeque<(Outputs, Attitude)>,
@@ -73,6 +75,7 @@ impl Flier {
             of,
             flown: None,
             state: State::default(),
+            restart: None,
             events: Vec::new(),
             inputs: InputsRecord::default(),
             outputs: VecDeque::with_capacity(OUTPUTS_KEPT),
@@ -85,6 +88,7 @@ impl Flier {
     pub fn begin(&mut self, state: State) {
         self.state = state;
         self.begun_tick = state.tick;
+        self.restart = None;
         self.events.clear();
         self.outputs.clear();
         self.flown = None;
@@ -99,6 +103,9 @@ impl Flier {
         match channel {
             ChannelId::Hardware => self.events.push(cdr::decode(message)?),
             ChannelId::Inputs => self.inputs = cdr::decode(message)?,
+            ChannelId::Restart => {
+                self.restart = Some(cdr::decode::<RestartRecord>(message)?.state);
+            }
             _ => {}
         }
         Ok(())
@@ -108,6 +115,7 @@ impl Flier {
     pub fn fly(&mut self) {
         let inputs = Inputs { events: &self.events, world: self.inputs.world };
         let aircraft = &self.of.aircraft;
+        self.state = self.restart.take().unwrap_or(self.state);
         if self.states_only && !is_kept(self.state.tick.wrapping_add(1)) {
             step_state(aircraft, &mut self.state, &inputs);
             self.flown_state(None);
@@ -126,6 +134,7 @@ impl Flier {
 
     fn flown_state(&mut self, outputs: Option<&Outputs>) {
         self.events.clear();
+        self.restart = None;
         let flown = self.flown.get_or_insert_default();
         flown.0 = self.state;
         if let Some(outputs) = outputs {

@@ -240,7 +240,11 @@ impl Pack {
                 }
                 same.then_some(Op::View(channel.number() as u8))
             }
-            Some((_, Compacted::Kept)) | None => None,
+            Some((channel, Compacted::Kept)) => {
+                self.flier.takes(channel.id, data)?;
+                None
+            }
+            None => None,
         };
         self.block.ops.push(op.unwrap_or(Op::Plain));
         if op.is_none() {

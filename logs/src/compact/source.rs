@@ -12,13 +12,13 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
 use super::files::{broken, decode, form_of, refuse_other_form, refuse_other_layout, setup_of};
-use super::ahead::Crew;
+use super::ahead::{Crew, Restarts};
 use super::flier::{AircraftOf, Flier, FlownTick, short_digest};
 use super::{HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
 use crate::container::checksums::add_message;
 use crate::container::{Compacted, LogFile, Record, RecordSource, Schema, stamped};
-use crate::records::{STATE, StateRecord};
+use crate::records::{RESTART, RestartRecord, STATE, StateRecord};
 use crate::setup::{Identity, METADATA};
 use crate::{LogError, cdr};
 
@@ -240,7 +240,9 @@ impl Expander {
         }
         let plain = std::mem::take(&mut self.plain);
         let from = self.next_from.take();
-        let flown = self.crew.as_ref().zip(from).and_then(|(crew, from)| crew.fly(from, &block));
+        let restarts = self.restarts(&plain);
+        let flown =
+            self.crew.as_ref().zip(from).and_then(|(crew, from)| crew.fly(from, &block, restarts));
         if let (Some((_, data)), Some(_)) = (&keyframe, &self.crew) {
             self.next_from = Some(cdr::decode::<StateRecord>(data)?.state);
         }
@@ -250,6 +252,18 @@ impl Expander {
         let unpacked = Unpacked { block, plain, flown, ticks, next, row, digest, view, keyframe };
         self.ahead.push_back(Ahead::Block(Box::new(unpacked)));
         Ok(())
+    }
+
+    /// States among the messages of a block that take the place of flown ones; what cannot be read is found
+    /// wrong when its turn comes.
+    fn restarts(&self, plain: &VecDeque<Message>) -> Restarts {
+        let id = self.ids.get(RESTART);
+        let of = |(number, (header, data)): (usize, &Message)| {
+            let is_one = self.crew.is_some() && Some(&header.channel_id) == id;
+            let restart = is_one.then(|| cdr::decode::<RestartRecord>(data).ok())??;
+            Some((number, restart.state))
+        };
+        plain.iter().enumerate().filter_map(of).collect()
     }
 
     /// Reads on in the file, as far ahead as blocks can be flown meanwhile.
@@ -368,9 +382,15 @@ impl Expander {
         let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
         let (header, data) = at.plain.pop_front().ok_or_else(|| broken("a message less"))?;
         if Some(&header.channel_id) == self.ids.get(STATE) {
+            // It is flown on from there.
+            (at.flown, at.ticks) = (None, VecDeque::new());
             self.stand_at(&data)?;
             self.states += 1;
             self.reflown = false;
+        } else if Some(&header.channel_id) == self.ids.get(RESTART)
+            && let Some(flier) = &mut self.flier
+        {
+            flier.takes(ChannelId::Restart, &data)?;
         }
         *record = Record::Message(header, data);
         Ok(())

@@ -34,7 +34,8 @@ impl FileChannel {
     /// Whether its messages are what today's definition says, number by number where they are numbers.
     pub fn is_todays(&self) -> bool {
         let ours = self.id.and_then(|id| <&Channel>::from(id).message_type().ok());
-        let same = |layout: &Layout| ours.is_some_and(|ours| ours.layout.as_deref() == Some(layout));
+        let same =
+            |layout: &Layout| ours.is_some_and(|ours| ours.layout.as_deref() == Some(layout));
         self.todays || self.layout.as_deref().is_some_and(same)
     }
 }
