@@ -64,9 +64,12 @@ impl Stretch {
         self.length += 1;
     }
 
-    /// The recorded state after it.
-    fn to(&self) -> Option<&State> {
-        self.ticks.get(self.length.checked_sub(1)?).map(|tick| &tick.record.state)
+    /// The recorded state after it; that before it where it has no ticks.
+    fn to(&self) -> Result<State, LogError> {
+        match self.ticks[..self.length].last() {
+            Some(tick) => cdr::decode(&tick.state_message),
+            None => Ok(self.from),
+        }
     }
 
     /// Flies it up to the first tick that is not the recorded one.
@@ -125,6 +128,7 @@ pub(crate) fn fly(
     let (back, done) = channel();
     let waiting = Mutex::new(waiting);
     let (from, Reflight { reader, aircraft, outputs_check, .. }) = (flight.state, &mut *flight);
+    reader.states_as_bytes = true;
     let aircraft = &*aircraft;
     let mut reading = Reading {
         reader,
@@ -211,7 +215,7 @@ impl Reading<'_> {
             while stopped.is_none() && stretch.length < TICKS {
                 stopped = self.read(&mut stretch)?;
             }
-            from = stretch.to().copied().unwrap_or(from);
+            from = stretch.to()?;
             self.handed_out += 1;
             self.hand_out(stretch)?;
             progress(self.facts.ticks);

@@ -95,6 +95,9 @@ pub struct FlightReader {
     pub outputs: Vec<Outputs>,
     /// Whether `outputs` is to be kept: no flight depends on it.
     pub keep_outputs: bool,
+    /// Of a recorded state only the digest, the tick and the bytes are wanted; the rest of
+    /// [`Tick::record`] is then of no tick.
+    pub states_as_bytes: bool,
     ending: Option<Ending>,
     remade: Remade,
 }
@@ -257,7 +260,14 @@ impl FlightReader {
                 }
             }
             ChannelId::State => {
-                self.tick.record = mappings.decode(ours, layout, data)?;
+                let whole = layout.is_none() && data.len() == self.first.len();
+                if self.states_as_bytes && whole && data.starts_with(&cdr::HEADER) {
+                    let word = |place| cdr::word(data, place).unwrap_or_default();
+                    self.tick.record.digest = word(0);
+                    self.tick.record.state.tick = word(StateRecord::TICK);
+                } else {
+                    self.tick.record = mappings.decode(ours, layout, data)?;
+                }
                 return self.close_tick().map(|()| true);
             }
             ChannelId::Timing => self.timings.push(mappings.decode(ours, layout, data)?),
