@@ -196,7 +196,7 @@ impl Plan {
         let inputs: Vec<&Path> =
             [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
         output::refuse(&common.out, common.force, &inputs)?;
-        let pipe = recorder::pipe::take(&common.out)
+        let pipe = recorder::open_pipe(&common.out)
             .with_context(|| format!("cannot write {}", common.out.display()))?;
         Ok(Self {
             pipe,
