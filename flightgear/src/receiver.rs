@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use crate::report::Report;
+use crate::report::{GroundSample, Report};
 
 /// How long the thread waits for a packet before it looks whether it should end.
 const WAIT: Duration = Duration::from_millis(50);
@@ -67,6 +67,11 @@ impl Receiver {
             return None;
         }
         latest.report.map(|(report, _)| report)
+    }
+
+    /// The newest ground, taken before or not. Never waits: nothing while a packet is just coming in.
+    pub fn newest_ground(&self) -> Option<GroundSample> {
+        self.latest.try_lock().ok()?.report?.0.ground
     }
 
     /// The newest report, and how old it is.

@@ -8,6 +8,8 @@ mod clock;
 mod crew;
 mod end;
 mod flight;
+pub mod flightgear_controls;
+pub mod ground;
 mod hands;
 mod landing;
 mod live;
