@@ -18,7 +18,7 @@ pub struct Args {
 /// Flies, verifies, saves for the viewer, and sums up.
 pub fn run(args: &Args) -> Result<Status> {
     let out = &args.common.out;
-    let mut plan = Plan::new(&args.common)?;
+    let mut plan = Plan::new(&args.common, None)?;
     plan.flight.self_check = true;
     #[cfg(feature = "rerun")]
     let saved = out.with_extension("rrd");
@@ -40,7 +40,7 @@ pub fn run(args: &Args) -> Result<Status> {
         let places: Vec<String> = link.destinations().map(|place| place.to_string()).collect();
         say!("Live in FlightGear at {}.", places.join(", "));
     }
-    let real_time = plan.flight.real_time;
+    let real_time = plan.flight.real_time.is_some();
     let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &out.display().to_string());
     if landing.log.is_err() {

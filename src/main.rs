@@ -5,6 +5,7 @@ mod console;
 
 mod claim;
 mod condition;
+mod controls;
 mod demo;
 mod diff;
 mod fly;
@@ -15,6 +16,7 @@ mod link_args;
 mod log;
 mod made;
 mod numbers;
+mod panel;
 mod replay_live;
 mod report;
 mod status;

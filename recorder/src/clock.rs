@@ -1,13 +1,12 @@
 //! Keeping time: a tick every 4 ms by the monotonic clock, as punctually as the system allows.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use engine::STEP_NS;
 
+pub(crate) use crate::platform::now_ns;
 use crate::platform::sleep_until;
-pub(crate) use crate::platform::{claim_real_time, now_ns};
 
 /// Sleeps until this long before a tick is due, and spins for the rest.
 const SPIN_NS: u64 = 200_000;
@@ -20,6 +19,21 @@ pub fn wall_ns() -> u64 {
 
 /// Later than this, and the clock is anchored anew, ns: nothing is flown in a burst on stale hands.
 pub const SLIP_LIMIT_NS: u64 = 100_000_000;
+
+/// How a flight keeps time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RealTime {
+    /// Later than this, and the clock is anchored anew, ns.
+    pub slip_limit_ns: u64,
+    /// The processor on which the loop stays; wherever the system puts it without.
+    pub cpu: Option<usize>,
+}
+
+impl Default for RealTime {
+    fn default() -> Self {
+        Self { slip_limit_ns: SLIP_LIMIT_NS, cpu: None }
+    }
+}
 
 /// When the ticks are due.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +55,12 @@ pub struct Woken {
 impl Pace {
     /// Real time; tick 0 is due now.
     pub fn starting_now() -> Self {
-        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns: SLIP_LIMIT_NS }
+        Self::with_slip_limit(SLIP_LIMIT_NS)
+    }
+
+    /// The same with another limit of a slip.
+    pub fn with_slip_limit(slip_limit_ns: u64) -> Self {
+        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns }
     }
 
     /// So many times faster than real time; tick 0 is due now.

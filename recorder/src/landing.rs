@@ -6,6 +6,7 @@ use engine::Outputs;
 use flightgear::{Hold, Sent};
 use logs::{Closed, LogError};
 
+use crate::debrief::Debrief;
 use crate::end::End;
 use crate::self_check::Checked;
 use crate::statistics::Statistics;
@@ -16,6 +17,8 @@ use crate::writer::Delay;
 pub struct Landing {
     /// How it kept time.
     pub statistics: Statistics,
+    /// What the pilot hears of it.
+    pub debrief: Debrief,
     /// The log, or why it ends early.
     pub log: Result<Closed, LogError>,
     /// An older log of the same name, when this one could not take its place.

@@ -7,6 +7,7 @@ mod diff;
 mod divergence;
 pub mod growth;
 pub mod judgement;
+mod made;
 mod outputs;
 pub mod playback;
 mod refly;
@@ -27,6 +28,7 @@ pub use diff::{
 };
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use judgement::{End, Facts, Judgement, Outcome, judge};
+pub use made::proven;
 pub use outputs::OutputsDifference;
 pub use playback::Playback;
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};

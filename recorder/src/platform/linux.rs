@@ -1,7 +1,7 @@
 //! Linux: sleeping to an absolute time, SCHED_FIFO, locked memory.
 
 use rustix::mm::{MlockAllFlags, mlockall};
-use rustix::thread::{ClockId as SleepClock, clock_nanosleep_absolute};
+use rustix::thread::{ClockId as SleepClock, CpuSet, clock_nanosleep_absolute, sched_setaffinity};
 use rustix::time::{ClockId, Timespec, clock_gettime};
 use thread_priority::unix::{
     RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy,
@@ -24,10 +24,21 @@ pub(crate) fn sleep_until(until_ns: u64) {
     let _ = clock_nanosleep_absolute(SleepClock::Monotonic, &until);
 }
 
-/// Asks for real-time scheduling of this thread and memory that is never paged out; returns what was
-/// not granted, in words.
-pub(crate) fn claim_real_time() -> Vec<String> {
-    let mut refused = Vec::new();
+/// Keeps this thread on one processor.
+fn stay_on(cpu: usize) -> Result<(), String> {
+    let mut set = CpuSet::new();
+    if cpu >= CpuSet::MAX_CPU {
+        return Err(format!("processor {cpu}: there is none of that number"));
+    }
+    set.set(cpu);
+    sched_setaffinity(None, &set)
+        .map_err(|error| format!("the loop does not stay on processor {cpu}: {error}"))
+}
+
+/// Asks for real-time scheduling of this thread, memory that is never paged out, and the processor that
+/// is asked for; returns what was not granted, in words.
+pub(crate) fn claim_real_time(cpu: Option<usize>) -> Vec<String> {
+    let mut refused: Vec<String> = cpu.into_iter().filter_map(|cpu| stay_on(cpu).err()).collect();
     let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
     let priority = ThreadPriorityValue::try_from(40_u8).map(ThreadPriority::Crossplatform);
     let scheduled = priority.is_ok_and(|priority| {

@@ -21,9 +21,12 @@ pub(crate) fn sleep_until(until_ns: u64) {
 }
 
 /// Asks for the highest priority that a thread may have; returns what was not granted, in words.
-pub(crate) fn claim_real_time() -> Vec<String> {
+pub(crate) fn claim_real_time(cpu: Option<usize>) -> Vec<String> {
     let mut refused =
         vec!["memory is not locked on this system: a page fault may delay a tick".to_string()];
+    if let Some(cpu) = cpu {
+        refused.push(format!("the loop cannot be kept on processor {cpu} on this system"));
+    }
     if set_current_thread_priority(ThreadPriority::Max).is_err() {
         refused.push("no high priority for the loop: expect late ticks under load".to_string());
     }
