@@ -5,15 +5,18 @@ mod console;
 
 mod claim;
 mod condition;
+mod controls;
 mod demo;
 mod diff;
 mod fly;
 mod identity;
 mod json;
 mod linearize;
+mod link_args;
 mod log;
 mod made;
 mod numbers;
+mod panel;
 mod replay_live;
 mod report;
 mod status;

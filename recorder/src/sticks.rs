@@ -73,9 +73,11 @@ impl Sticks {
         Ok(Self { events, stop, thread: Some(thread), found })
     }
 
-    /// Takes what came in since the tick before.
-    pub fn take(&mut self, tick: u64, events: &mut Vec<DeviceEvent>) {
-        while let Ok(event) = self.events.pop() {
+    /// Takes what came in since the tick before, so many events at most: what is left comes in the next
+    /// tick, in its order.
+    pub fn take(&mut self, tick: u64, events: &mut Vec<DeviceEvent>, most: usize) {
+        for _ in 0..most {
+            let Ok(event) = self.events.pop() else { return };
             events.push(DeviceEvent { tick, ..event });
         }
     }

@@ -36,7 +36,11 @@ mod tests {
             let path = folder().join(&file.path);
             let there = fs::read(&path).unwrap_or_default();
             let fresh = there == file.bytes;
-            assert!(fresh, "{}: run `cargo run -p flightgear-package --example xv15_package`", file.path);
+            assert!(
+                fresh,
+                "{}: run `cargo run -p flightgear-package --example xv15_package`",
+                file.path
+            );
         }
     }
 

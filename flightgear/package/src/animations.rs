@@ -50,10 +50,7 @@ pub fn xml(aircraft: &Aircraft) -> String {
 }
 
 fn names<S: AsRef<str>>(objects: &[S]) -> String {
-    objects
-        .iter()
-        .map(|name| format!("  <object-name>{}</object-name>\n", name.as_ref()))
-        .collect()
+    objects.iter().map(|name| format!("  <object-name>{}</object-name>\n", name.as_ref())).collect()
 }
 
 fn vector(tag: &str, at: Point, unit: &str) -> String {
@@ -101,7 +98,14 @@ impl Model {
         sub(station_m, self.origin_m)
     }
 
-    fn turn(&mut self, objects: &[impl AsRef<str>], property: &str, law: &Law, axis: Point, at: Point) {
+    fn turn(
+        &mut self,
+        objects: &[impl AsRef<str>],
+        property: &str,
+        law: &Law,
+        axis: Point,
+        at: Point,
+    ) {
         let rest = format!(
             "  <property>{property}</property>\n{}{}{}",
             law.xml("deg"),
@@ -131,17 +135,21 @@ impl Model {
 
     /// What is there or not, as a whole.
     fn shown(&mut self) {
-        self.show_if(&["crew.left", "crew.right"], "<not><property>/sim/current-view/internal</property></not>");
+        self.show_if(
+            &["crew.left", "crew.right"],
+            "<not><property>/sim/current-view/internal</property></not>",
+        );
         // Glass is drawn after what is behind it, and does not throw a shadow.
         self.animation("noshadow", &["glass", "disc.left", "disc.right", "landing.beam"], "");
     }
 
     fn nacelles(&mut self, aircraft: &Aircraft) {
         for (i, name, side) in SIDES {
-            let mut objects: Vec<String> = ["nacelle", "spinner", "glow", "disc", "nav", "halo.nav"]
-                .iter()
-                .map(|part| format!("{part}.{name}"))
-                .collect();
+            let mut objects: Vec<String> =
+                ["nacelle", "spinner", "glow", "disc", "nav", "halo.nav"]
+                    .iter()
+                    .map(|part| format!("{part}.{name}"))
+                    .collect();
             objects.extend(self.blades(aircraft, name));
             // Built as a helicopter, 90 deg.
             self.turn(
@@ -151,7 +159,10 @@ impl Model {
                 [0.0, 1.0, 0.0],
                 nacelle::pivot_m(aircraft, side),
             );
-            self.show_if(&[format!("glow.{name}")], &format!("<property>tiltrotor/engine[{i}]/running</property>"));
+            self.show_if(
+                &[format!("glow.{name}")],
+                &format!("<property>tiltrotor/engine[{i}]/running</property>"),
+            );
         }
     }
 
@@ -168,7 +179,13 @@ impl Model {
             let disc = format!("disc.{name}");
             let tilting: Vec<_> = blades.iter().chain([&disc]).cloned().collect();
             self.turn(&tilting, &property("flap-aft-deg"), &Law::Times(1.0), [0.0, 1.0, 0.0], hub);
-            self.turn(&tilting, &property("flap-right-deg"), &Law::Times(1.0), [-1.0, 0.0, 0.0], hub);
+            self.turn(
+                &tilting,
+                &property("flap-right-deg"),
+                &Law::Times(1.0),
+                [-1.0, 0.0, 0.0],
+                hub,
+            );
             let mut turning = tilting;
             turning.push(format!("spinner.{name}"));
             self.turn(&turning, &property("azimuth-deg"), &Law::Times(1.0), [0.0, 0.0, side], hub);
@@ -194,7 +211,8 @@ impl Model {
     }
 
     fn surfaces(&mut self, aircraft: &Aircraft) {
-        let mirrored = |[from, to]: [Point; 2]| [to, from].map(|[aft, right, up]| [aft, -right, up]);
+        let mirrored =
+            |[from, to]: [Point; 2]| [to, from].map(|[aft, right, up]| [aft, -right, up]);
         let flap = wing::flap_hinge_m(aircraft);
         let flaperon = wing::flaperon_hinge_m(aircraft);
         let surface = |what: &str| format!("tiltrotor/surface/{what}");
@@ -291,7 +309,11 @@ impl Model {
                 );
                 self.animation("timed", &[&halo, &format!("off.{}", light.name)], &rest);
             }
-            self.animation("billboard", &[&halo], &format!("  <spherical type=\"bool\">true</spherical>\n{centre}"));
+            self.animation(
+                "billboard",
+                &[&halo],
+                &format!("  <spherical type=\"bool\">true</spherical>\n{centre}"),
+            );
         }
         let down = "<greater-than><property>tiltrotor/gear/unit[0]/position-norm</property><value>0.9</value></greater-than>";
         self.show_if(&["landing.lamp"], down);
@@ -306,7 +328,13 @@ impl Model {
             let stick = [format!("stick.{name}")];
             let at = [aft, seat, up];
             self.turn(&stick, &control("stick-aft-norm"), &Law::Times(13.0), [0.0, 1.0, 0.0], at);
-            self.turn(&stick, &control("stick-right-norm"), &Law::Times(13.0), [-1.0, 0.0, 0.0], at);
+            self.turn(
+                &stick,
+                &control("stick-right-norm"),
+                &Law::Times(13.0),
+                [-1.0, 0.0, 0.0],
+                at,
+            );
             let [aft, up, left] = cockpit::LEVER_M;
             self.turn(
                 &[format!("lever.{name}")],

@@ -80,7 +80,9 @@ pub fn numbers(aircraft: &Aircraft) -> String {
     let _ = writeln!(
         text,
         "var governed_rpm = [{}];",
-        list(&mut aircraft.fcc.governor.rotor_speed_radps.iter().map(|radps| radps * RPM_PER_RADPS))
+        list(
+            &mut aircraft.fcc.governor.rotor_speed_radps.iter().map(|radps| radps * RPM_PER_RADPS)
+        )
     );
     text
 }

@@ -175,7 +175,9 @@ impl Mesh {
         let across = unit(cross(along, helper));
         let third = cross(along, across);
         let circle = |at: Point, r: f64| {
-            crate::shape::ring(points, |s, c| add(at, add(scale(across, r * c), scale(third, r * s))))
+            crate::shape::ring(points, |s, c| {
+                add(at, add(scale(across, r * c), scale(third, r * s)))
+            })
         };
         self.body(material, &[circle(from, radius), circle(to, end_radius)]);
     }
@@ -283,9 +285,8 @@ fn split(polygon: &Polygon, half: &Half) -> (Option<Polygon>, Option<Polygon>) {
             outside.push(at);
         }
     }
-    let with = |corners: Vec<Corner>| {
-        (corners.len() > 2).then(|| Polygon { corners, ..polygon.clone() })
-    };
+    let with =
+        |corners: Vec<Corner>| (corners.len() > 2).then(|| Polygon { corners, ..polygon.clone() });
     (with(inside), with(outside))
 }
 
@@ -315,9 +316,8 @@ fn without_repeats(mut corners: Vec<Point>) -> Vec<Point> {
 
 /// Twice the area of a flat polygon, along its normal.
 fn area(rim: &[Point]) -> Point {
-    (1..rim.len().saturating_sub(1)).fold([0.0; 3], |sum, i| {
-        add(sum, cross(sub(rim[i], rim[0]), sub(rim[i + 1], rim[0])))
-    })
+    (1..rim.len().saturating_sub(1))
+        .fold([0.0; 3], |sum, i| add(sum, cross(sub(rim[i], rim[0]), sub(rim[i + 1], rim[0]))))
 }
 
 /// The middle of some points.

@@ -157,7 +157,16 @@ const LETTERS: &[(char, &[&[[f64; 2]]])] = &[
     (
         'R',
         &[
-            &[[0.2, 0.0], [0.2, 6.0], [2.7, 6.0], [3.6, 5.5], [3.9, 4.5], [3.5, 3.5], [2.6, 3.0], [0.2, 3.0]],
+            &[
+                [0.2, 0.0],
+                [0.2, 6.0],
+                [2.7, 6.0],
+                [3.6, 5.5],
+                [3.9, 4.5],
+                [3.5, 3.5],
+                [2.6, 3.0],
+                [0.2, 3.0],
+            ],
             &[[2.2, 3.0], [4.0, 0.0]],
         ],
     ),
@@ -197,7 +206,8 @@ impl Word {
         let forward = if right_side { -1.0 } else { 1.0 };
         let mut lines = Vec::new();
         for (i, letter) in text.chars().enumerate() {
-            let strokes = LETTERS.iter().find(|(known, _)| *known == letter).map_or(&[][..], |(_, s)| s);
+            let strokes =
+                LETTERS.iter().find(|(known, _)| *known == letter).map_or(&[][..], |(_, s)| s);
             for stroke in strokes {
                 let at = |[x, y]: [f64; 2]| {
                     // Leaning with the flight.

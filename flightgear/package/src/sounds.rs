@@ -112,7 +112,8 @@ fn nacelle() -> Vec<f64> {
         .map(|i| {
             let t = time_s(i);
             let teeth = 1.0 + 0.35 * sin(TAU * 23.0 * t);
-            let hum = 0.30 * sin(TAU * 184.0 * t) + 0.18 * sin(TAU * 368.0 * t)
+            let hum = 0.30 * sin(TAU * 184.0 * t)
+                + 0.18 * sin(TAU * 368.0 * t)
                 + 0.12 * sin(TAU * 736.0 * t);
             teeth * hum + 0.5 * noise[i]
         })
@@ -126,7 +127,8 @@ fn gear() -> Vec<f64> {
     (0..count)
         .map(|i| {
             let t = time_s(i);
-            0.28 * sin(TAU * 97.0 * t) + 0.20 * sin(TAU * 291.0 * t)
+            0.28 * sin(TAU * 97.0 * t)
+                + 0.20 * sin(TAU * 291.0 * t)
                 + 0.10 * sin(TAU * 873.0 * t)
                 + 0.7 * noise[i]
         })
@@ -163,10 +165,8 @@ fn wind() -> Vec<f64> {
 /// The file of a sound, as loud as it can be without being cut.
 fn wav(signal: &[f64]) -> Vec<u8> {
     let peak = signal.iter().fold(1e-9, |peak, x| max(peak, x.abs()));
-    let data: Vec<u8> = signal
-        .iter()
-        .flat_map(|x| ((x / peak * 29_000.0) as i16).to_le_bytes())
-        .collect();
+    let data: Vec<u8> =
+        signal.iter().flat_map(|x| ((x / peak * 29_000.0) as i16).to_le_bytes()).collect();
     let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
     let mut file = Vec::new();
     file.extend(b"RIFF");

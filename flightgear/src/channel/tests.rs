@@ -1,3 +1,5 @@
+use std::sync::OnceLock;
+
 use engine::inputs::{Failures, World};
 use engine::outputs::Validity;
 use engine::pair::Pair;
@@ -6,12 +8,13 @@ use engine::{Aircraft, Outputs};
 use super::*;
 use crate::scene::{Lamps, Recording};
 
-fn xv15() -> Aircraft {
-    aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15")
+fn xv15() -> &'static Aircraft {
+    static XV15: OnceLock<Aircraft> = OnceLock::new();
+    XV15.get_or_init(|| aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15"))
 }
 
 fn shown(outputs: &Outputs, world: &World, lamps: Lamps) -> Channel {
-    Channel::of(&Scene { aircraft: &xv15(), outputs, world, lamps })
+    Channel::of(&Scene { aircraft: xv15(), outputs, world, lamps })
 }
 
 fn near(channel: &Channel, node: &str, expected: f64) {

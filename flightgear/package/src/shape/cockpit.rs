@@ -129,7 +129,12 @@ fn panel() -> Mesh {
         let corner = |y: f64, z: f64| on_panel(side * SEAT_M + y, SCREEN_UP_M + z, 0.004);
         mesh.face(
             material::BLACK,
-            &[corner(-frame, -frame), corner(frame, -frame), corner(frame, frame), corner(-frame, frame)],
+            &[
+                corner(-frame, -frame),
+                corner(frame, -frame),
+                corner(frame, frame),
+                corner(-frame, frame),
+            ],
         );
     }
     // Breakers and boxes in the middle.
@@ -137,7 +142,8 @@ fn panel() -> Mesh {
         for column in 0..3_u8 {
             let (y, z) = (-0.13 + 0.065 * f64::from(column), 1.29 + 0.075 * f64::from(row));
             let corner = |dy: f64, dz: f64| on_panel(y + dy, z + dz, 0.003);
-            let face = [corner(0.0, 0.0), corner(0.052, 0.0), corner(0.052, 0.05), corner(0.0, 0.05)];
+            let face =
+                [corner(0.0, 0.0), corner(0.052, 0.0), corner(0.052, 0.05), corner(0.0, 0.05)];
             let colour = if (row + column) % 3 == 0 { material::DARK } else { material::FLOOR };
             mesh.face(colour, &face);
         }
@@ -201,8 +207,18 @@ fn stick(seat: f64) -> Mesh {
         ([aft + 0.075, seat, up + 0.47], 0.026),
         14,
     );
-    mesh.bar(material::RED, [aft + 0.055, seat - 0.01, up + 0.47], [aft + 0.055, seat - 0.01, up + 0.485], 0.009);
-    mesh.cone(material::DARK, ([aft, seat, up - 0.01], 0.07), ([aft - 0.01, seat, up + 0.07], 0.025), 14);
+    mesh.bar(
+        material::RED,
+        [aft + 0.055, seat - 0.01, up + 0.47],
+        [aft + 0.055, seat - 0.01, up + 0.485],
+        0.009,
+    );
+    mesh.cone(
+        material::DARK,
+        ([aft, seat, up - 0.01], 0.07),
+        ([aft - 0.01, seat, up + 0.07], 0.025),
+        14,
+    );
     mesh
 }
 
@@ -223,7 +239,12 @@ fn lever(seat: f64) -> Mesh {
         [aft - 0.46, right - 0.028, up + 0.13],
         [aft - 0.41, right + 0.028, up + 0.18],
     );
-    mesh.bar(material::YELLOW, [aft - 0.44, right, up + 0.18], [aft - 0.44, right, up + 0.195], 0.012);
+    mesh.bar(
+        material::YELLOW,
+        [aft - 0.44, right, up + 0.18],
+        [aft - 0.44, right, up + 0.195],
+        0.012,
+    );
     mesh
 }
 
@@ -233,7 +254,12 @@ fn pedal(right: f64) -> Mesh {
     prism(
         &mut mesh,
         material::METAL,
-        &[[aft - 0.05, up + 0.10], [aft + 0.02, up - 0.06], [aft + 0.035, up - 0.055], [aft - 0.035, up + 0.105]],
+        &[
+            [aft - 0.05, up + 0.10],
+            [aft + 0.02, up - 0.06],
+            [aft + 0.035, up - 0.055],
+            [aft - 0.035, up + 0.105],
+        ],
         [right - 0.055, right + 0.055],
     );
     mesh.bar(material::DARK, [aft - 0.02, right, up], [aft - 0.25, right, up - 0.05], 0.012);
@@ -244,7 +270,12 @@ fn gear_handle() -> Mesh {
     let [aft, right, up] = GEAR_HANDLE_M;
     let mut mesh = Mesh::default();
     mesh.bar(material::METAL, [aft - 0.02, right, up], [aft + 0.07, right, up], 0.007);
-    mesh.bar(material::RED, [aft + 0.08, right - 0.012, up], [aft + 0.08, right + 0.012, up], 0.024);
+    mesh.bar(
+        material::RED,
+        [aft + 0.08, right - 0.012, up],
+        [aft + 0.08, right + 0.012, up],
+        0.024,
+    );
     mesh
 }
 
@@ -265,7 +296,11 @@ fn warning_lamp() -> Mesh {
     let mut mesh = Mesh::default();
     for (_, _, side) in SIDES {
         let right = side * SEAT_M;
-        mesh.cuboid(material::LIGHT_RED, [4.330, right - 0.018, 1.669], [4.334, right + 0.018, 1.680]);
+        mesh.cuboid(
+            material::LIGHT_RED,
+            [4.330, right - 0.018, 1.669],
+            [4.334, right + 0.018, 1.680],
+        );
     }
     mesh
 }
@@ -278,15 +313,29 @@ fn crew(seat: f64) -> Mesh {
     };
     mesh.body(
         material::OVERALL,
-        &[body(1.30, 0.13, 0.17, 5.02), body(1.48, 0.13, 0.18, 5.06), body(1.62, 0.12, 0.20, 5.09), body(1.69, 0.08, 0.10, 5.10)],
+        &[
+            body(1.30, 0.13, 0.17, 5.02),
+            body(1.48, 0.13, 0.18, 5.06),
+            body(1.62, 0.12, 0.20, 5.09),
+            body(1.69, 0.08, 0.10, 5.10),
+        ],
     );
     mesh.body(
         material::SKIN,
-        &[body(1.68, 0.05, 0.05, 5.10), body(1.76, 0.085, 0.065, 5.08), body(1.84, 0.09, 0.07, 5.08)],
+        &[
+            body(1.68, 0.05, 0.05, 5.10),
+            body(1.76, 0.085, 0.065, 5.08),
+            body(1.84, 0.09, 0.07, 5.08),
+        ],
     );
     mesh.body(
         material::WHITE,
-        &[body(1.80, 0.11, 0.10, 5.10), body(1.88, 0.135, 0.12, 5.10), body(1.95, 0.11, 0.10, 5.10), body(1.985, 0.04, 0.04, 5.10)],
+        &[
+            body(1.80, 0.11, 0.10, 5.10),
+            body(1.88, 0.135, 0.12, 5.10),
+            body(1.95, 0.11, 0.10, 5.10),
+            body(1.985, 0.04, 0.04, 5.10),
+        ],
     );
     for side in [-1.0, 1.0] {
         let y = |out: f64| seat + side * out;

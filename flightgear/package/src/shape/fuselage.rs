@@ -195,14 +195,15 @@ pub fn pod(shape: &GearPods) -> (Mesh, Mesh) {
         .into_iter()
         .map(|aft| {
             let [_, radius] = smooth.at(aft);
-            ring(28, |s, c| {
-                [aft, shape.buttline_m + radius * s, shape.waterline_m + radius * c]
-            })
+            ring(28, |s, c| [aft, shape.buttline_m + radius * s, shape.waterline_m + radius * c])
         })
         .collect();
     let mut pod = Mesh::default();
     pod.body(material::WHITE, &rings);
     let doors = pod.cut(&super::gear::main_bay(shape));
-    pod.paint(&outline([0, 2], &[[6.0, 0.9], [11.0, 0.9], [11.0, 1.0], [6.0, 1.0]]), material::BLUE);
+    pod.paint(
+        &outline([0, 2], &[[6.0, 0.9], [11.0, 0.9], [11.0, 1.0], [6.0, 1.0]]),
+        material::BLUE,
+    );
     (pod, doors)
 }

@@ -155,7 +155,16 @@ fn wheel([aft, right, up]: Point, wheels: &Wheels) -> Mesh {
         ring(24, |s, c| [aft + part * radius * s, right + across * half, up + part * radius * c])
     };
     let mut mesh = Mesh::default();
-    let profile = [(0.62, -0.9), (0.86, -1.0), (0.97, -0.72), (1.0, -0.3), (1.0, 0.3), (0.97, 0.72), (0.86, 1.0), (0.62, 0.9)];
+    let profile = [
+        (0.62, -0.9),
+        (0.86, -1.0),
+        (0.97, -0.72),
+        (1.0, -0.3),
+        (1.0, 0.3),
+        (0.97, 0.72),
+        (0.86, 1.0),
+        (0.62, 0.9),
+    ];
     mesh.skin(material::TYRE, &profile.map(|(part, across)| circle(part, across)));
     mesh.body(material::GREY, &[circle(0.62, -0.8), circle(0.62, 0.8)]);
     // A mark, by which turning is seen.

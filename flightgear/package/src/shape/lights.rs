@@ -53,7 +53,13 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
         };
         lamp.body(
             light.material,
-            &[circle(0.3, -1.0), circle(0.8, -0.6), circle(1.0, 0.0), circle(0.8, 0.6), circle(0.3, 1.0)],
+            &[
+                circle(0.3, -1.0),
+                circle(0.8, -0.6),
+                circle(1.0, 0.0),
+                circle(0.8, 0.6),
+                circle(0.3, 1.0),
+            ],
         );
         parts.push(Part::new(light.name, lamp).smooth(80.0));
         parts.push(halo(&light));
@@ -81,18 +87,17 @@ fn halo(light: &Light) -> Part {
             [aft, right - half, up + half],
         ],
     );
-    let mesh = mesh.two_sided().textured(|[_, y, z]| {
-        [0.5 + 0.5 * (y - right) / half, 0.5 + 0.5 * (z - up) / half]
-    });
+    let mesh = mesh
+        .two_sided()
+        .textured(|[_, y, z]| [0.5 + 0.5 * (y - right) / half, 0.5 + 0.5 * (z - up) / half]);
     Part::new(format!("halo.{}", light.name), mesh).with_texture(paint::HALO)
 }
 
 /// A faint cone ahead and down.
 fn beam() -> Part {
     let [aft, right, up] = LANDING_M;
-    let circle = |out: f64, r: f64| {
-        ring(20, |s, c| [aft - out, right + r * s, up - 0.30 * out + r * c])
-    };
+    let circle =
+        |out: f64, r: f64| ring(20, |s, c| [aft - out, right + r * s, up - 0.30 * out + r * c]);
     let rings = [circle(0.1, 0.08), circle(14.0, 2.2)];
     let mut mesh = Mesh::default();
     mesh.skin(material::BEAM, &rings);

@@ -67,9 +67,8 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
 /// The exhaust's inside, and the intakes: scoops on the front below the hub.
 fn openings(pivot: Point, low: f64, high: f64) -> Mesh {
     let mut mesh = Mesh::default();
-    let circle = |radius: f64, up: f64| {
-        ring(24, |s, c| [pivot[0] + radius * c, pivot[1] + radius * s, up])
-    };
+    let circle =
+        |radius: f64, up: f64| ring(24, |s, c| [pivot[0] + radius * c, pivot[1] + radius * s, up]);
     let mut pipe = Mesh::default();
     pipe.skin(material::DARK, &[circle(0.195, low), circle(0.15, low + 0.35)]);
     mesh.join(pipe.inside_out());
@@ -87,9 +86,13 @@ fn openings(pivot: Point, low: f64, high: f64) -> Mesh {
             scoop(high - 1.15, 0.06, 0.42),
         ];
         mesh.body(material::WHITE, &rings);
-        let mouth =
-            ring(18, |s, c| [pivot[0] + 0.36 + 0.085 * c, pivot[1] + across + 0.115 * s, high - 0.155]);
-        mesh.body(material::BLACK, &[mouth.clone(), mouth.iter().map(|&[x, y, z]| [x, y, z - 0.005]).collect()]);
+        let mouth = ring(18, |s, c| {
+            [pivot[0] + 0.36 + 0.085 * c, pivot[1] + across + 0.115 * s, high - 0.155]
+        });
+        mesh.body(
+            material::BLACK,
+            &[mouth.clone(), mouth.iter().map(|&[x, y, z]| [x, y, z - 0.005]).collect()],
+        );
     }
     mesh
 }

@@ -83,7 +83,12 @@ fn blade(aircraft: &Aircraft, azimuth_rad: f64) -> Mesh {
     mesh.paint(&[outside], material::YELLOW);
     // The grip, from the hub to the root.
     let grip = |out: f64| place(hub, [out, 0.0, rise * out], [s, c]);
-    mesh.cone(material::METAL, (grip(0.12), 0.09), (grip(rotors.blade.root_norm * rotors.radius_m + 0.12), 0.065), 14);
+    mesh.cone(
+        material::METAL,
+        (grip(0.12), 0.09),
+        (grip(rotors.blade.root_norm * rotors.radius_m + 0.12), 0.065),
+        14,
+    );
     mesh
 }
 
@@ -106,8 +111,6 @@ fn disc(aircraft: &Aircraft) -> Mesh {
     };
     let mut mesh = Mesh::default();
     mesh.skin(material::DISC, &[circle(0.06), circle(1.0)]);
-    mesh.textured(|[aft, right, _]| {
-        [aft - hub[0], right - hub[1]].map(|x| 0.5 + 0.5 * x / radius)
-    })
-    .two_sided()
+    mesh.textured(|[aft, right, _]| [aft - hub[0], right - hub[1]].map(|x| 0.5 + 0.5 * x / radius))
+        .two_sided()
 }

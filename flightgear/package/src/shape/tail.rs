@@ -67,10 +67,7 @@ fn tailplane(plane: &Tailplane) -> Vec<Part> {
     right.body(material::WHITE, &span(&moving, GAP_M, half - 0.05));
     let mut elevator = right.mirrored();
     elevator.join(right);
-    vec![
-        Part::new("tailplane", fixed).smooth(35.0),
-        Part::new("elevator", elevator).smooth(35.0),
-    ]
+    vec![Part::new("tailplane", fixed).smooth(35.0), Part::new("elevator", elevator).smooth(35.0)]
 }
 
 fn fin(fins: &Fins) -> (Mesh, Mesh) {
@@ -97,7 +94,10 @@ fn fin(fins: &Fins) -> (Mesh, Mesh) {
     for mesh in [&mut fin, &mut rudder] {
         // A broad band of blue with a light one below it.
         mesh.paint(&[Half::above(2, upper - 0.62)], material::BLUE);
-        mesh.paint(&[Half::above(2, upper - 0.80), Half::below(2, upper - 0.68)], material::LIGHT_BLUE);
+        mesh.paint(
+            &[Half::above(2, upper - 0.80), Half::below(2, upper - 0.68)],
+            material::LIGHT_BLUE,
+        );
     }
     (fin, rudder)
 }

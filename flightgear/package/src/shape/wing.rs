@@ -47,9 +47,7 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     let wing = &aircraft.display.wing;
     let half_span = 0.5 * wing.span_m;
     let span = |outline: &Outline, from: f64, to: f64| -> Vec<Vec<Point>> {
-        [from, to]
-            .map(|right| place(outline, quarter_m(wing, right), wing.chord_m, false))
-            .to_vec()
+        [from, to].map(|right| place(outline, quarter_m(wing, right), wing.chord_m, false)).to_vec()
     };
     let whole = front(wing.thickness_ratio, 1.0);
     let cut = front(wing.thickness_ratio, HINGE_NORM);
