@@ -10,7 +10,6 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 use engine::cockpit;
 use engine::{Aircraft, STEP_S};
-use flightgear::Link;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use logs::output;
@@ -21,6 +20,7 @@ use recorder::situation;
 use recorder::{End, Flight, Landing, Progress, RealTime, Restart, Snapshot, check_clock, fly};
 
 use crate::claim::Claim;
+use crate::link_args::LinkArgs;
 use crate::panel::{Cockpit, Panel};
 use crate::status::Status;
 use crate::{condition, controls, identity, numbers, report};
@@ -125,22 +125,16 @@ pub struct Common {
     /// Overwrite an existing log
     #[arg(long)]
     pub force: bool,
-    /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
-    /// [default: 127.0.0.1:5501; nothing is sent with --fast]
-    #[arg(long, value_name = "HOST:PORT")]
-    flightgear: Option<String>,
-    /// Send nothing to FlightGear
-    #[arg(long, conflicts_with = "flightgear")]
-    no_flightgear: bool,
+    #[command(flatten)]
+    pub link: LinkArgs,
 }
 
 impl Common {
-    /// Where the pictures go. A flight as fast as it goes would fly over somebody's flight in real time.
-    fn destination(&self) -> Option<&str> {
-        match &self.flightgear {
-            Some(destination) => Some(destination),
-            None if self.no_flightgear || self.fast => None,
-            None => Some(flightgear::DEFAULT_DESTINATION),
+    /// Keeps the last picture up in FlightGear, for as long as it is to be.
+    pub fn hold(&self, landing: &mut Landing) -> Result<()> {
+        match landing.hold.take() {
+            Some(hold) => self.link.keep(hold).map(|_| ()),
+            None => Ok(()),
         }
     }
 }
@@ -203,8 +197,9 @@ pub fn run(args: &Args) -> Result<Status> {
     }
     let real_time = plan.flight.real_time.is_some();
     plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
-    let landing = plan.fly()?;
+    let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
+    args.common.hold(&mut landing)?;
     Ok(if is_whole(&landing) { Status::Done } else { Status::CutShort })
 }
 
@@ -226,7 +221,7 @@ pub struct Plan {
     /// Whether there is a panel, or a line of progress.
     panel: bool,
     /// Where its pictures go.
-    _claim: Option<Claim>,
+    _claims: Vec<Claim>,
 }
 
 impl Plan {
@@ -251,19 +246,18 @@ impl Plan {
             );
         }
         let robot_description = aircraft::urdf(&aircraft);
-        let link = common.destination().map(Link::new).transpose()?;
-        let claim = common.destination().map(Claim::of);
+        let (link, claims) = common.link.open(common.fast)?.unzip();
         let inputs: Vec<&Path> =
             [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
         output::refuse(&common.out, common.force, &inputs)?;
-        let pipe = recorder::pipe::take(&common.out)
+        let pipe = recorder::open_pipe(&common.out)
             .with_context(|| format!("cannot write {}", common.out.display()))?;
         Ok(Self {
             pipe,
             phases: Vec::new(),
             orders: None,
             panel: false,
-            _claim: claim,
+            _claims: claims.unwrap_or_default(),
             flight: Flight {
                 aircraft,
                 start,
@@ -379,7 +373,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, _claim, .. } = self;
+        let Self { flight, pipe: _pipe, phases, _claims, .. } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
@@ -406,7 +400,7 @@ impl Plan {
     fn fly_with_panel(self) -> Result<Landing> {
         let progress = Progress::default();
         progress.stop_on_signals()?;
-        let Self { flight, pipe: _pipe, phases, orders, _claim, .. } = self;
+        let Self { flight, pipe: _pipe, phases, orders, _claims, .. } = self;
         let verdict = flight
             .real_time
             .map_or_else(String::new, |wanted| check_clock(wanted, CLOCK_CHECK).verdict());

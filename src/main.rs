@@ -13,6 +13,7 @@ mod fly;
 mod identity;
 mod json;
 mod linearize;
+mod link_args;
 mod log;
 mod made;
 mod numbers;

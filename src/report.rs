@@ -8,6 +8,8 @@ use recorder::statistics::Durations;
 use recorder::{End, Landing};
 use replay::ReplayError;
 
+use crate::link_args;
+
 /// Why a log is not reflown, and what can be done about it.
 pub fn refusal(error: &ReplayError) -> String {
     match error {
@@ -58,7 +60,7 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
     line("step", &flown.step, "the flight model");
     line("hand-over", &flown.record, "to the log's writer");
     // Without a packet there is no picture that could be late.
-    let pictures = landing.sent > 0;
+    let pictures = landing.pictures.iter().any(|way| way.sent > 0);
     if pictures {
         line("to picture", &flown.sent, "from when a tick was due to the packet for FlightGear");
     }
@@ -69,7 +71,9 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
              40 ms)"
         );
     }
-    say!("FlightGear {} packets sent, {} not", landing.sent, landing.unsent);
+    for words in link_args::in_words(&landing.pictures) {
+        say!("FlightGear {words}");
+    }
     match &landing.log {
         Ok(closed) => say!(
             "log        {out}, {} ({:.0} B a tick), digest {:016x}, nothing dropped",

@@ -98,6 +98,7 @@ pub fn run(args: &Args) -> Result<Status> {
         setup: &setup,
         identity: &identity,
         timing: false,
+        devices: &source.devices,
         picture_of: Some(log),
     };
     let mut baseline = Baseline::of(&reader).with_context(name)?;

@@ -16,6 +16,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("aircraft", &["engine"]),
     ("analysis", &["engine"]),
     ("flightgear", &["engine"]),
+    ("flightgear-package", &["aircraft", "engine"]),
     ("logs", &["engine"]),
     ("recorder", &["aircraft", "analysis", "engine", "flightgear", "logs"]),
     ("replay", &["aircraft", "analysis", "engine", "logs"]),
@@ -30,6 +31,7 @@ const KEPT: &[(&str, &str)] = &[
     ("gilrs-core", "recorder"),
     ("mcap", "logs"),
     ("parquet", "logs"),
+    ("png", "flightgear-package"),
     ("rerun", "replay"),
     ("zerocopy", "flightgear"),
 ];

@@ -187,7 +187,8 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn device(&mut self, device: &DeviceIdentity) -> Result<(), LogError> {
         let message = device.encode()?;
-        self.put(ChannelId::Devices, device.tick, &message)
+        // One that was there before this log begins is told at its beginning: times never go back.
+        self.put(ChannelId::Devices, device.tick.max(self.last_tick), &message)
     }
 
     /// Something that happened, as a record and in words.

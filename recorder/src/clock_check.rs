@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use engine::STEP_NS;
 
-use crate::clock::{Pace, RealTime, claim_real_time};
+use crate::clock::{Pace, RealTime};
+use crate::platform::claim_real_time;
 use crate::statistics::Durations;
 
 /// Up to this late at p99.9 the machine holds real time well, ms.
@@ -24,7 +25,7 @@ pub struct ClockCheck {
 pub fn check_clock(wanted: RealTime, duration: Duration) -> ClockCheck {
     let ticks = duration.as_nanos() as u64 / STEP_NS;
     let check = thread::spawn(move || {
-        let refused = claim_real_time(&wanted);
+        let refused = claim_real_time(wanted.cpu);
         let mut late = Durations::new();
         let mut pace = Pace::with_slip_limit(wanted.slip_limit_ns);
         for tick in 0..ticks {

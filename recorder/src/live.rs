@@ -10,19 +10,20 @@ use std::sync::mpsc;
 
 use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
-use flightgear::Link;
+use flightgear::{Lamps, Link, Picture, Recording as Lamp, Scene};
 #[cfg(feature = "sticks")]
 use logs::devices::DeviceIdentity;
 use logs::output::Output;
 use logs::records::{InputsRecord, RestartRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Observed};
 
-use crate::clock::{Pace, Woken, claim_real_time, now_ns, wall_ns};
+use crate::clock::{Pace, Woken, now_ns, wall_ns};
 use crate::crew::Crew;
 use crate::debrief::Debrief;
 use crate::end::End;
 use crate::flight::{Flight, FlyError};
 use crate::landing::Landing;
+use crate::platform::claim_real_time;
 use crate::progress::{Progress, Shown, Told};
 use crate::restart::{Restarts, Situation};
 use crate::self_check::SelfCheck;
@@ -67,6 +68,8 @@ pub(crate) struct Live<'a, S> {
     output: Output,
     self_check: Option<SelfCheck>,
     link: Option<Link>,
+    /// Not before then is another picture sent when it flies as fast as it goes.
+    next_picture_ns: u64,
     /// Real time; `None` flies as fast as it goes.
     pace: Option<Pace>,
     ticks_max: Option<u64>,
@@ -154,7 +157,7 @@ where
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
         // After the other threads have begun: what is claimed is for the loop.
-        let refused = flight.real_time.as_ref().map_or_else(Vec::new, claim_real_time);
+        let refused = flight.real_time.map_or_else(Vec::new, |wanted| claim_real_time(wanted.cpu));
         let outputs = observe(&aircraft, &state, &world);
         recording.show(&outputs, state.plant.attitude);
         let crew = Crew::new(flight.hands, world_of_start);
@@ -175,6 +178,7 @@ where
             output,
             self_check,
             link: flight.link,
+            next_picture_ns: 0,
             ticks_max: flight.ticks_max,
             progress,
             statistics: Statistics::new(),
@@ -303,8 +307,8 @@ where
     /// Sends the picture, then hands the state over to the other threads; returns when the picture was
     /// on its way.
     fn publish(&mut self) -> u64 {
-        if let Some(link) = &mut self.link {
-            link.send(&self.outputs);
+        if self.pace.is_some() || now_ns() >= self.next_picture_ns {
+            self.show();
         }
         let sent_ns = now_ns();
         self.recording.put(ToRecord::State(self.state, Observed::of(&self.outputs)));
@@ -314,6 +318,27 @@ where
             check.put(restart, &self.events, self.crew.world, &self.state);
         }
         sent_ns
+    }
+
+    /// Sends the picture. As fast as it goes there would be thousands a second, which nobody sees.
+    fn show(&mut self) {
+        self.next_picture_ns = now_ns() + STEP_NS;
+        let picture = self.picture();
+        if let (Some(link), Some(picture)) = (&mut self.link, picture) {
+            link.send(&picture);
+        }
+    }
+
+    /// What FlightGear is to show; `None` when there is none.
+    fn picture(&self) -> Option<Picture> {
+        self.link.as_ref()?;
+        let recording = if self.recording.has_failed() { Lamp::Failed } else { Lamp::On };
+        Some(Picture::of(&Scene {
+            aircraft: &self.aircraft,
+            outputs: &self.outputs,
+            world: &self.crew.world,
+            lamps: Lamps { recording, ..Lamps::default() },
+        }))
     }
 
     /// Notes how the tick kept time, in the log and for whoever looks on.
@@ -371,11 +396,17 @@ where
     /// Ends the log and the threads beside the loop.
     fn land(mut self, end: End) -> Landing {
         self.recording.put(ToRecord::Landed(self.state.tick, end));
+        // From here on, while the log is being closed, too.
+        let last = self.picture();
+        let pictures = self.link.as_ref().map(Link::sent).unwrap_or_default();
+        let hold = self
+            .link
+            .filter(|link| !link.nobody_listens())
+            .zip(last)
+            .map(|(link, last)| link.hold(last));
         let backlog_max = self.recording.backlog_max;
         // Before the log is closed: what it finds last is told there, too.
         let checked = self.self_check.map(SelfCheck::finish);
-        let (sent, unsent) =
-            self.link.as_ref().map_or((0, 0), |link| (link.sent(), link.dropped()));
         let (log, delay) = self.recording.finish(self.statistics.facts());
         let set_aside = self.output.set_aside().map(Path::to_path_buf);
         let log = log.and_then(|closed| self.output.finish().map(|()| closed));
@@ -387,8 +418,8 @@ where
             set_aside,
             outputs: self.outputs,
             events: self.events_taken,
-            sent,
-            unsent,
+            pictures,
+            hold,
             backlog_max,
             delay,
             checked,
@@ -431,7 +462,7 @@ mod tests {
             real_time: None,
             situation: None,
             ticks_max: None,
-            link: Some(Link::new("127.0.0.1:9").unwrap()),
+            link: Some(Link::new(&["127.0.0.1:9"]).unwrap()),
             self_check: true,
         }
     }

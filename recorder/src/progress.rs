@@ -8,14 +8,9 @@ use engine::Outputs;
 use engine::inputs::World;
 use logs::records::TimingRecord;
 use logs::view::Level;
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 
 use crate::debrief::Debrief;
-
-/// Signals that end a flight in an orderly way, and what they are called. After SIGXFSZ the log cannot
-/// grow any further; what is in it stays.
-const ENDING: [(i32, &str); 4] =
-    [(SIGINT, "SIGINT"), (SIGTERM, "SIGTERM"), (SIGHUP, "SIGHUP"), (SIGXFSZ, "SIGXFSZ")];
+use crate::platform::{ENDING, is_ignored};
 
 /// Something that was told in the log.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -128,9 +123,8 @@ impl Progress {
     /// # Errors
     /// When the system refuses the handlers.
     pub fn stop_on_signals(&self) -> std::io::Result<()> {
-        let ignored = ignored();
-        for (number, (signal, _)) in (1..).zip(ENDING) {
-            if matches!(signal, SIGHUP | SIGXFSZ) && ignored & 1 << (signal - 1) != 0 {
+        for (number, &(signal, _)) in (1..).zip(ENDING) {
+            if is_ignored(signal) {
                 continue;
             }
             // The name first: whoever sees that it should end can say why.
@@ -203,12 +197,4 @@ impl Progress {
         self.overruns.store(overruns, Ordering::Relaxed);
         self.log_failed.store(log_failed, Ordering::Relaxed);
     }
-}
-
-/// The signals that whoever started this process has it ignore, a bit each from signal 1 on; none where
-/// the system does not tell.
-fn ignored() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }

@@ -455,7 +455,7 @@ mod tests {
         Cockpit {
             log: "flight.mcap".into(),
             aircraft: xv15.name.clone(),
-            envelope: xv15.envelope,
+            envelope: xv15.envelope.clone(),
             phases: vec!["take-off"],
             verdict: "real time: ticks up to 0.1 ms late".into(),
             controls: crate::controls::keyboard(),
