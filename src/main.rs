@@ -8,6 +8,7 @@ mod condition;
 mod controls;
 mod demo;
 mod diff;
+mod doctor;
 mod fly;
 mod identity;
 mod json;
@@ -20,6 +21,7 @@ mod panel;
 mod replay_live;
 mod report;
 mod status;
+mod timing;
 mod trim;
 mod verify;
 mod view;
@@ -64,6 +66,8 @@ enum Command {
     /// Small motions about a steady flight: modes, frequency responses, state-space matrices. Exit 0
     /// solved, 5 no steady flight, or not converged.
     Linearize(linearize::Args),
+    /// What this machine can hold in real time, and what to change.
+    Doctor(doctor::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
 }
@@ -111,6 +115,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Log(command) => log::run(&command),
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),
+        Command::Doctor(args) => doctor::run(&args),
         Command::Demo(args) => demo::run(&args),
     }
 }

@@ -27,7 +27,7 @@ pub enum Status {
 use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusable};
 
 /// The statuses with which each verb ends.
-const VERBS: [(&str, &[Status]); 19] = [
+const VERBS: [(&str, &[Status]); 20] = [
     ("fly", &[Done, Unusable, CutShort]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
@@ -46,6 +46,7 @@ const VERBS: [(&str, &[Status]); 19] = [
     ("log expand", &[Done, Unusable, NeverClosed]),
     ("log recover", &[Differs, Unusable, NeverClosed]),
     ("trim", &[Done, Unusable, NotConverged]),
+    ("doctor", &[Done, Unusable]),
     ("linearize", &[Done, Unusable, NotConverged]),
 ];
 

@@ -49,7 +49,7 @@ impl ClockCheck {
     /// In a line.
     pub fn verdict(&self) -> String {
         let (p999_ms, max_ms) = (self.late.percentile_ms(99.9), self.late.longest_ms());
-        let late = format!("ticks up to {max_ms:.2} ms late");
+        let late = format!("ticks up to {max_ms:.3} ms late when tried");
         let scheduling = if self.refused.is_empty() { "" } else { "; not all was granted" };
         if self.misses_ticks() {
             format!(

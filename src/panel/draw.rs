@@ -7,7 +7,7 @@ use engine::controls::PilotControls;
 use engine::inputs::World;
 use engine::math::{atan2, max, sqrt};
 use engine::outputs::Severity;
-use engine::units::{FOOT_M, FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees, knots};
+use engine::units::{FOOT_M, FPM_PER_MPS, RPM_PER_RADPS, degrees, knots};
 use logs::view::Level;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -30,18 +30,32 @@ const BAR: usize = 21;
 pub enum Page {
     /// The flight.
     Flight,
-    /// The active controls and keys.
-    Controls,
+    /// The active controls and keys, from this line on.
+    Controls(usize),
 }
 
 impl Page {
-    /// The page after it.
-    pub fn next(self) -> Self {
+    /// The page after it, on a terminal of this size.
+    pub fn next(self, lines: usize, columns: u16, rows: u16) -> Self {
+        let (columns, rows) = lists(columns.saturating_sub(2), rows.saturating_sub(AROUND_ROWS));
         match self {
-            Self::Flight => Self::Controls,
-            Self::Controls => Self::Flight,
+            Self::Flight => Self::Controls(0),
+            Self::Controls(from) if from + columns * rows < lines => {
+                Self::Controls(from + columns * rows)
+            }
+            Self::Controls(_) => Self::Flight,
         }
     }
+}
+
+/// Rows of the screen around a list of controls.
+const AROUND_ROWS: u16 = 10;
+/// Columns that a line of it needs.
+const LIST_COLUMNS: u16 = 58;
+
+/// Lists side by side, and the lines of each.
+fn lists(columns: u16, rows: u16) -> (usize, usize) {
+    (usize::from((columns / LIST_COLUMNS).max(1)), usize::from(rows.max(1)))
 }
 
 /// Everything that a picture is made of.
@@ -108,7 +122,7 @@ pub fn draw(frame: &mut Frame<'_>, look: &Look<'_>) {
     title(frame, head, look);
     match look.page {
         Page::Flight => flight(frame, body, look),
-        Page::Controls => controls_page(frame, body, look),
+        Page::Controls(from) => controls_page(frame, body, look, from),
     }
     told(frame, events, look);
     let keys = match look.cockpit.keys_fly {
@@ -192,27 +206,30 @@ fn attitude(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 fn numbers(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let o = &look.shown.outputs;
     let limits = &look.cockpit.envelope.rotors;
-    let mast_n_m = o.engines.torque_n_m.map(|torque_n_m| torque_n_m);
+    let mast_n_m = o.engines.torque_n_m;
     let torque_max_n_m = limits.short_torque_n_m_max.at(o.rotor_speed_radps);
     let torque = 100.0 * max(mast_n_m.left, mast_n_m.right) / max(torque_max_n_m, 1.0);
     let rotor = 100.0 * o.rotor_speed_radps / limits.rated_radps;
-    let rows: [(&str, f64, usize, &str, Style); 9] = [
-        ("airspeed", o.calibrated_airspeed_mps * KT_PER_MPS, 0, "kt", Style::new()),
-        ("height", o.height_above_ground_m / FOOT_M, 0, "ft", Style::new()),
-        ("climb", -o.velocity_mps.z * FPM_PER_MPS, 0, "ft/min", Style::new()),
-        ("heading", degrees(o.euler.heading_rad).rem_euclid(360.0), 0, "deg", Style::new()),
-        ("nacelles", 90.0 - degrees(o.actuators.mast_tilt_rad.mean()), 0, "deg", Style::new()),
-        ("rotors", rotor, 0, "%", look.style_of_rotor()),
-        ("", o.rotor_speed_radps * RPM_PER_RADPS, 0, "rpm", Style::new()),
-        ("torque", torque, 0, "%", if torque > 100.0 { look.warning() } else { Style::new() }),
-        ("fuel", o.fuel_kg, 0, "kg", Style::new()),
+    let rpm = format!("% {:.0} rpm", o.rotor_speed_radps * RPM_PER_RADPS);
+    let torque_style = if torque > 100.0 { look.warning() } else { Style::new() };
+    let v = o.body_velocity_mps;
+    let right = format!("kt {:+.0} right", knots(v.y).round() + 0.0);
+    let rows: [(&str, f64, &str, Style); 9] = [
+        ("airspeed", knots(o.calibrated_airspeed_mps), "kt", Style::new()),
+        ("forward", knots(v.x), &right, Style::new()),
+        ("height", o.height_above_ground_m / FOOT_M, "ft", Style::new()),
+        ("climb", -o.velocity_mps.z * FPM_PER_MPS, "ft/min", Style::new()),
+        ("heading", degrees(o.euler.heading_rad).rem_euclid(360.0), "deg", Style::new()),
+        ("nacelles", 90.0 - degrees(o.actuators.mast_tilt_rad.mean()), "deg", Style::new()),
+        ("rotors", rotor, &rpm, look.style_of_rotor()),
+        ("torque", torque, "%", torque_style),
+        ("fuel", o.fuel_kg, "kg", Style::new()),
     ];
-    let lines = rows.map(|(name, value, digits, unit, style)| {
+    let lines = rows.map(|(name, value, unit, style)| {
         // No minus before a nought.
         let value = if value.abs() < 0.5 { 0.0 } else { value };
-        let figure =
-            Span::styled(format!("{value:>7.digits$}"), style.add_modifier(Modifier::BOLD));
-        Line::from(vec![Span::raw(format!(" {name:<9}")), figure, Span::raw(format!(" {unit}"))])
+        let figure = Span::styled(format!("{value:>6.0}"), style.add_modifier(Modifier::BOLD));
+        Line::from(vec![Span::raw(format!(" {name:<8}")), figure, Span::raw(format!(" {unit}"))])
     });
     frame.render_widget(Paragraph::new(lines.to_vec()), area);
 }
@@ -410,21 +427,16 @@ fn told(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 }
 
 /// The active controls, in as many columns as fit.
-fn controls_page(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
+fn controls_page(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>, from: usize) {
     let lines = &look.cockpit.controls;
-    let rows = usize::from(area.height.saturating_sub(2)).max(1);
-    let columns = lines.len().div_ceil(rows).max(1);
     let block = Block::bordered().title("controls of this flight");
     let inner = block.inner(area);
     frame.render_widget(block, area);
+    let (columns, rows) = lists(inner.width, inner.height);
     let widths = vec![Constraint::Fill(1); columns];
     for (column, place) in Layout::horizontal(widths).split(inner).iter().enumerate() {
-        let part: Vec<Line<'_>> = lines
-            .iter()
-            .skip(column * rows)
-            .take(rows)
-            .map(|line| Line::raw(line.as_str()))
-            .collect();
+        let part = lines.iter().skip(from + column * rows).take(rows);
+        let part: Vec<Line<'_>> = part.map(|line| Line::raw(line.as_str())).collect();
         frame.render_widget(Paragraph::new(part), *place);
     }
 }
@@ -498,7 +510,7 @@ mod tests {
 
     #[test]
     fn regress_the_page_of_controls() {
-        insta::assert_snapshot!(picture(Page::Controls, &flying(), (120, 30)));
+        insta::assert_snapshot!(picture(Page::Controls(0), &flying(), (120, 30)));
     }
 
     #[test]
