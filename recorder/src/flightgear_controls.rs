@@ -152,6 +152,8 @@ mod tests {
                 phase: &mut phase,
                 done: &mut done,
                 gave_up: &mut gave_up,
+                restart: &mut None,
+                save: &mut false,
             },
         );
         *state = cockpit::update(&map(), state, &events);
