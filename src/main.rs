@@ -8,6 +8,7 @@ mod condition;
 mod controls;
 mod demo;
 mod diff;
+mod flightgear;
 mod fly;
 mod identity;
 mod json;
@@ -64,6 +65,8 @@ enum Command {
     /// Small motions about a steady flight: modes, frequency responses, state-space matrices. Exit 0
     /// solved, 5 no steady flight, or not converged.
     Linearize(linearize::Args),
+    /// Start FlightGear with our aircraft, and wait until it is ready.
+    Flightgear(flightgear::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
 }
@@ -111,6 +114,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Log(command) => log::run(&command),
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),
+        Command::Flightgear(args) => flightgear::run(&args),
         Command::Demo(args) => demo::run(&args),
     }
 }
