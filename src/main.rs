@@ -9,6 +9,7 @@ mod controls;
 mod demo;
 mod diff;
 mod doctor;
+mod flightgear;
 mod fly;
 mod identity;
 mod json;
@@ -68,6 +69,8 @@ enum Command {
     Linearize(linearize::Args),
     /// What this machine can hold in real time, and what to change.
     Doctor(doctor::Args),
+    /// Start FlightGear with our aircraft, and wait until it is ready.
+    Flightgear(flightgear::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
 }
@@ -116,6 +119,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),
         Command::Doctor(args) => doctor::run(&args),
+        Command::Flightgear(args) => flightgear::run(&args),
         Command::Demo(args) => demo::run(&args),
     }
 }

@@ -29,6 +29,7 @@ use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusa
 /// The statuses with which each verb ends.
 const VERBS: [(&str, &[Status]); 20] = [
     ("fly", &[Done, Unusable, CutShort]),
+    ("flightgear", &[Done, Unusable]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
     ("verify", &[Done, Differs, Unusable, NeverClosed, Compared]),
