@@ -540,8 +540,17 @@ var update = func {
 var overlay = props.globals.getNode("sim/tiltrotor/overlay", 1);
 var overlay_size = props.globals.getNode("sim/tiltrotor/overlay-size-norm", 1);
 
+# Off: nothing is looked up or drawn, on the panel neither.
+var lit = props.globals.getNode("sim/tiltrotor/display", 1);
+
+var power = func {
+    if (value(lit)) timer.start();
+    else timer.stop();
+    show();
+};
+
 var show = func {
-    var mode = value(overlay);
+    var mode = value(lit) ? value(overlay) : 0;
     var inside = getprop("/sim/current-view/internal");
     var wanted = mode == 2 or (mode == 1 and !inside);
     if (!wanted) {
@@ -567,11 +576,12 @@ var cycle = func {
 var start = func {
     if (overlay.getValue() == nil) overlay.setValue(1);
     if (overlay_size.getValue() == nil) overlay_size.setValue(0.56);
+    if (lit.getValue() == nil) lit.setValue(1);
     build();
     timer = maketimer(0.04, update);
     timer.simulatedTime = 0;
-    timer.start();
-    setlistener(overlay, show, 1, 0);
+    setlistener(lit, power, 1, 0);
+    setlistener(overlay, show, 0, 0);
     setlistener("/sim/current-view/internal", show, 0, 0);
     foreach (var axis; ["xsize", "ysize"]) setlistener("/sim/startup/" ~ axis, show, 0, 0);
 };
