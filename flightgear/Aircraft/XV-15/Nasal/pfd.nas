@@ -4,7 +4,7 @@
 # this flight. A thing is drawn again only when what it shows has changed.
 
 var VIEW = 1000;
-var PIXELS = 640;
+var PIXELS = 512;
 var FONT = "LiberationFonts/LiberationSans-Bold.ttf";
 
 var WHITE = [0.96, 0.97, 0.98];
@@ -523,7 +523,7 @@ var Annunciators = {
 var parts = [];
 
 var build = func {
-    display = canvas.new({ name: "XV-15 PFD", size: [PIXELS, PIXELS], view: [VIEW, VIEW], mipmapping: 1 });
+    display = canvas.new({ name: "XV-15 PFD", size: [PIXELS, PIXELS], view: [VIEW, VIEW], mipmapping: 0 });
     display.setColorBackground(0.015, 0.018, 0.022, 1);
     var root = display.createGroup();
     parts = [Horizon.new(root), Airspeed.new(root), Height.new(root), Compass.new(root),
