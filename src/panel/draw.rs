@@ -181,7 +181,10 @@ fn attitude(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let euler = look.shown.outputs.euler;
     let (s, c) = engine::math::sin_cos(euler.roll_rad);
     let pitch_deg = degrees(euler.pitch_rad);
-    let words = format!("roll {:+4.0}° pitch {:+4.0}°", degrees(euler.roll_rad), pitch_deg);
+    // No minus before a nought.
+    let whole = |deg: f64| deg.round() + 0.0;
+    let (roll, pitch) = (whole(degrees(euler.roll_rad)), whole(pitch_deg));
+    let words = format!("roll {roll:+4.0}° pitch {pitch:+4.0}°");
     let canvas = Canvas::default()
         .block(Block::bordered().title(words))
         // Dots show in every font and without colours.
@@ -229,7 +232,7 @@ fn numbers(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         Line::from(vec![Span::raw(format!(" {name:<8}")), figure, Span::raw(format!(" {unit}"))])
     });
     let mut lines = lines.to_vec();
-    lines.insert(1, Line::raw(format!(" drift   fwd {forward:+.0} right {right:+.0} kt")));
+    lines.insert(1, Line::raw(format!(" drift kt  fwd {forward:+.0} right {right:+.0}")));
     frame.render_widget(Paragraph::new(lines), area);
 }
 
