@@ -236,6 +236,9 @@ fn recover(broken: &Path, out: &Path, force: bool) -> Result<Status> {
     if done.messages_foreign > 0 {
         say!("           {} messages on channels of others", done.messages_foreign);
     }
+    if done.files_foreign > 0 {
+        say!("           {} files and metadata records of others", done.files_foreign);
+    }
     if done.messages_unproven > 0 {
         say!(
             "           {} messages for viewers and tables that the kept ticks do not prove",

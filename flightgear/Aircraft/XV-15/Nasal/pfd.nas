@@ -225,7 +225,7 @@ var Height = {
         var base = nearest(ft, 100);
         me.setBase(base);
         me.setOffset(nearest((ft - base) * FT_PX, 0.5));
-        me.setDigits(nearest(ft, ft > -1000 and ft < 1000 ? 1 : 5));
+        me.setDigits(nearest(ft, 1));
         var radar = value(me.radar);
         me.setRadar(radar < 0.5 ? 0 : nearest(radar, radar < 100 ? 1 : 10));
         var fpm = value(me.climb);
@@ -315,7 +315,6 @@ var Corridor = {
         var point = root.createChild("group");
         var dot = point.createChild("path").setColor([0, 0, 0]).setStrokeLineWidth(2).moveTo(-10, 0)
             .arcSmallCW(10, 10, 0, 20, 0).arcSmallCW(10, 10, 0, -20, 0);
-        m.setX = memo(func(x) m.moved = 1);
         m.setPoint = func(x, y) {
             if (m["x"] == x and m["y"] == y) return;
             m.x = x;
