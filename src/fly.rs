@@ -60,6 +60,10 @@ pub struct Args {
     #[arg(long, value_name = "MS", default_value_t = 100.0)]
     #[arg(value_parser = numbers::between(5.0, 10_000.0, "ms"), allow_negative_numbers = true)]
     slip_limit: f64,
+    /// Sleep until this long before a tick is due, and spin for the rest, µs
+    #[arg(long, value_name = "US", default_value_t = 200.0)]
+    #[arg(value_parser = numbers::between(0.0, 4000.0, "µs"), allow_negative_numbers = true)]
+    spin_us: f64,
     /// Keep the loop on this processor, counted from 0
     #[arg(long, value_name = "N")]
     cpu: Option<usize>,
@@ -314,6 +318,7 @@ impl Plan {
     fn keep_time(&mut self, args: &Args) {
         if let Some(real_time) = &mut self.flight.real_time {
             real_time.slip_limit_ns = (args.slip_limit * 1e6).round() as u64;
+            real_time.spin_ns = (args.spin_us * 1e3).round() as u64;
             real_time.cpu = args.cpu;
         }
     }

@@ -24,7 +24,7 @@ read_panel() {
     roll=$(printf '%s\n' "$shown" | sed -n 's/.*roll *+*\(-\{0,1\}[0-9]*\)° pitch.*/\1/p')
     pitch=$(printf '%s\n' "$shown" | sed -n 's/.*pitch *+*\(-\{0,1\}[0-9]*\)°.*/\1/p')
     height=$(printf '%s\n' "$shown" | sed -n 's/^ height *\(-\{0,1\}[0-9]*\) ft.*/\1/p')
-    forward=$(printf '%s\n' "$shown" | sed -n 's/^ forward *\(-\{0,1\}[0-9]*\) kt.*/\1/p')
+    forward=$(printf '%s\n' "$shown" | sed -n 's/^ drift kt *fwd +*\(-\{0,1\}[0-9]*\) .*/\1/p')
     climb=$(printf '%s\n' "$shown" | sed -n 's/^ climb *\(-\{0,1\}[0-9]*\) ft.*/\1/p')
 }
 # One look, and at most a press for each control: the climb is to be $1 ft/min, the aircraft level.

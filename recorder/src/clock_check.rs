@@ -27,7 +27,7 @@ pub fn check_clock(wanted: RealTime, duration: Duration) -> ClockCheck {
     let check = thread::spawn(move || {
         let refused = claim_real_time(wanted.cpu);
         let mut late = Durations::new();
-        let mut pace = Pace::with_slip_limit(wanted.slip_limit_ns);
+        let mut pace = Pace::keeping(&wanted);
         for tick in 0..ticks {
             let woken = pace.wait(tick);
             late.add((woken.at_ns - pace.due_ns(tick)) + woken.slip_ns);

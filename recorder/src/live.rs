@@ -161,7 +161,7 @@ where
         let outputs = observe(&aircraft, &state, &world);
         recording.show(&outputs, state.plant.attitude);
         let crew = Crew::new(flight.hands, world_of_start);
-        let pace = flight.real_time.map(|wanted| Pace::with_slip_limit(wanted.slip_limit_ns));
+        let pace = flight.real_time.as_ref().map(Pace::keeping);
         Ok(Self {
             step,
             aircraft,

@@ -22,8 +22,8 @@ use super::cockpit::Cockpit;
 
 /// The smallest terminal in which all of it fits.
 const SIZE_MIN: (u16, u16) = (80, 24);
-/// Cells of a control's bar.
-const BAR: usize = 21;
+/// Columns beside a control's bar: its name, what its ends are called, the frame.
+const AROUND_BAR: u16 = 19;
 
 /// What is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,9 +126,7 @@ pub fn draw(frame: &mut Frame<'_>, look: &Look<'_>) {
     }
     told(frame, events, look);
     let keys = match look.cockpit.keys_fly {
-        true => {
-            " ? controls  arrows stick  PgUp/PgDn lever  n/b nacelles  p freeze  S save  R reset  Q end"
-        }
+        true => " ? keys  arrows stick  PgUp/PgDn lever  n/b nacelles  p freeze  S save  Q end",
         false => " ? controls   Q or Ctrl-C end",
     };
     frame.render_widget(Paragraph::new(keys).style(Style::new().add_modifier(Modifier::DIM)), foot);
@@ -162,7 +160,7 @@ fn title(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 
 fn flight(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let [left, middle, right] =
-        Layout::horizontal([Constraint::Length(24), Constraint::Min(30), Constraint::Length(26)])
+        Layout::horizontal([Constraint::Length(26), Constraint::Min(30), Constraint::Length(24)])
             .areas(area);
     let [attitude_area, numbers_area] =
         Layout::vertical([Constraint::Length(7), Constraint::Min(9)]).areas(left);
@@ -183,7 +181,10 @@ fn attitude(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let euler = look.shown.outputs.euler;
     let (s, c) = engine::math::sin_cos(euler.roll_rad);
     let pitch_deg = degrees(euler.pitch_rad);
-    let words = format!("roll {:+4.0}° pitch {:+4.0}°", degrees(euler.roll_rad), pitch_deg);
+    // No minus before a nought.
+    let whole = |deg: f64| deg.round() + 0.0;
+    let (roll, pitch) = (whole(degrees(euler.roll_rad)), whole(pitch_deg));
+    let words = format!("roll {roll:+4.0}° pitch {pitch:+4.0}°");
     let canvas = Canvas::default()
         .block(Block::bordered().title(words))
         // Dots show in every font and without colours.
@@ -213,10 +214,9 @@ fn numbers(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let rpm = format!("% {:.0} rpm", o.rotor_speed_radps * RPM_PER_RADPS);
     let torque_style = if torque > 100.0 { look.warning() } else { Style::new() };
     let v = o.body_velocity_mps;
-    let right = format!("kt {:+.0} right", knots(v.y).round() + 0.0);
-    let rows: [(&str, f64, &str, Style); 9] = [
+    let (forward, right) = (knots(v.x).round() + 0.0, knots(v.y).round() + 0.0);
+    let rows: [(&str, f64, &str, Style); 8] = [
         ("airspeed", knots(o.calibrated_airspeed_mps), "kt", Style::new()),
-        ("forward", knots(v.x), &right, Style::new()),
         ("height", o.height_above_ground_m / FOOT_M, "ft", Style::new()),
         ("climb", -o.velocity_mps.z * FPM_PER_MPS, "ft/min", Style::new()),
         ("heading", degrees(o.euler.heading_rad).rem_euclid(360.0), "deg", Style::new()),
@@ -231,7 +231,9 @@ fn numbers(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         let figure = Span::styled(format!("{value:>6.0}"), style.add_modifier(Modifier::BOLD));
         Line::from(vec![Span::raw(format!(" {name:<8}")), figure, Span::raw(format!(" {unit}"))])
     });
-    frame.render_widget(Paragraph::new(lines.to_vec()), area);
+    let mut lines = lines.to_vec();
+    lines.insert(1, Line::raw(format!(" drift kt  fwd {forward:+.0} right {right:+.0}")));
+    frame.render_widget(Paragraph::new(lines), area);
 }
 
 impl Look<'_> {
@@ -242,14 +244,14 @@ impl Look<'_> {
 }
 
 /// A bar with a mark where the control is, and another where hardware waits to pick it up.
-fn bar(at_norm: f64, low_norm: f64, waits_at_norm: Option<f64>) -> String {
+fn bar(count: usize, at_norm: f64, low_norm: f64, waits_at_norm: Option<f64>) -> String {
     let cell = |norm: f64| {
         let part = (norm - low_norm) / (1.0 - low_norm);
-        ((part * (BAR - 1) as f64).round().max(0.0) as usize).min(BAR - 1)
+        ((part * (count - 1) as f64).round() as usize).min(count - 1)
     };
-    let middle = if low_norm < 0.0 { Some(BAR / 2) } else { None };
+    let middle = if low_norm < 0.0 { Some(count / 2) } else { None };
     let mut cells: Vec<char> =
-        (0..BAR).map(|i| if Some(i) == middle { '┼' } else { '─' }).collect();
+        (0..count).map(|i| if Some(i) == middle { '┼' } else { '─' }).collect();
     if let Some(waits) = waits_at_norm {
         cells[cell(waits)] = '○';
     }
@@ -267,11 +269,16 @@ fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     };
     use engine::cockpit::AxisControl as A;
     let h = &pick_up.hardware;
+    // Odd, so that there is a middle.
+    let cells = usize::from(area.width.saturating_sub(AROUND_BAR).clamp(9, 41)) / 2 * 2 + 1;
+    let axis = |low, at_norm, low_norm, waits_at_norm, high| {
+        (low, bar(cells, at_norm, low_norm, waits_at_norm), high)
+    };
     let rows = [
-        ("fwd", bar(c.stick_aft_norm, -1.0, waits(A::StickAft, h.stick_aft_norm)), "aft"),
-        ("left", bar(c.stick_right_norm, -1.0, waits(A::StickRight, h.stick_right_norm)), "right"),
-        ("left", bar(c.pedal_right_norm, -1.0, waits(A::PedalRight, h.pedal_right_norm)), "right"),
-        ("down", bar(c.collective_norm, 0.0, waits(A::Collective, h.collective_norm)), "up"),
+        axis("fwd", c.stick_aft_norm, -1.0, waits(A::StickAft, h.stick_aft_norm), "aft"),
+        axis("left", c.stick_right_norm, -1.0, waits(A::StickRight, h.stick_right_norm), "right"),
+        axis("left", c.pedal_right_norm, -1.0, waits(A::PedalRight, h.pedal_right_norm), "right"),
+        axis("down", c.collective_norm, 0.0, waits(A::Collective, h.collective_norm), "up"),
     ];
     let names = ["stick", "stick", "pedal", "lever"];
     let mut lines: Vec<Line<'_>> = names
@@ -286,23 +293,17 @@ fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         _ => "off",
     };
     let gear = 100.0 * o.actuators.gear_extension_norm;
-    lines.push(Line::raw(format!(
-        "nacelle switch {nacelles:<8} flaps {:.0} deg",
-        degrees(o.actuators.flap_rad) + 0.0
-    )));
-    lines.push(Line::raw(format!(
-        "gear {} ({gear:.0} %)  SCAS {}  rpm {}",
-        switch(c.gear_down, "down", "up"),
-        switch(c.scas_on, "on", "OFF"),
-        c.rpm_select
-    )));
-    lines.push(Line::raw(format!(
-        "parking brake {}  toe brakes {:.0} %",
-        switch(c.parking_brake, "set", "off"),
-        100.0 * max(c.brake_norm.left, c.brake_norm.right)
-    )));
+    let flap_deg = degrees(o.actuators.flap_rad) + 0.0;
+    lines.push(Line::raw(format!("nac. switch {nacelles:<7} flaps {flap_deg:.0}°")));
+    let gear_handle = switch(c.gear_down, "down", "up");
+    lines.push(Line::raw(format!("gear {gear_handle} {gear:.0} %  rpm no. {}", c.rpm_select)));
+    let (scas, parking) = (switch(c.scas_on, "on", "OFF"), switch(c.parking_brake, "set", "off"));
+    lines.push(Line::raw(format!("SCAS {scas}  parking brake {parking}")));
+    let brakes = 100.0 * max(c.brake_norm.left, c.brake_norm.right);
+    lines.push(Line::raw(format!("toe brakes {brakes:.0} %")));
     if pick_up.waiting != 0 {
-        lines.push(Line::styled("○ bring the hardware there to pick it up", look.caution()));
+        lines.pop();
+        lines.push(Line::styled("○ waits to be picked up", look.caution()));
     }
     frame.render_widget(Paragraph::new(lines).block(Block::bordered().title("controls")), area);
 }
@@ -314,12 +315,12 @@ fn timing(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let late = if ms(shown.late_ns) > 4.0 { look.warning() } else { Style::new() };
     let latency = match shown.latency_ns {
         0 => "no hardware moved".into(),
-        ns => format!("{:.1} ms, input to picture", ms(ns)),
+        ns => format!("input to picture {:.1} ms", ms(ns)),
     };
-    let slips = format!("slips {}, {:.1} s in all", now.slips, now.slipped_s);
+    let slips = format!("{} slips ({:.1} s)", now.slips, now.slipped_s);
     let lines = vec![
         Line::styled(
-            format!("late {:.2} ms, {:.2} at most", ms(shown.late_ns), ms(shown.late_ns_max)),
+            format!("late {:.2} ms, max {:.2}", ms(shown.late_ns), ms(shown.late_ns_max)),
             late,
         ),
         Line::styled(
@@ -362,9 +363,9 @@ fn corridor(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let margin_mps = corridor.margin_mps(tilt_rad, o.calibrated_airspeed_mps);
     let flying = o.height_above_ground_m > 5.0;
     let (words, style) = if flying && margin_mps < 0.0 {
-        ("OUTSIDE THE CORRIDOR", look.warning())
+        ("OUTSIDE CORRIDOR", look.warning())
     } else {
-        ("corridor, 0..300 kt", Style::new())
+        ("corridor 0..300 kt", Style::new())
     };
     let canvas = Canvas::default()
         .block(Block::bordered().title(Span::styled(words, style)))
