@@ -27,7 +27,7 @@ pub enum Status {
 use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusable};
 
 /// The statuses with which each verb ends.
-const VERBS: [(&str, &[Status]); 20] = [
+const VERBS: &[(&str, &[Status])] = &[
     ("fly", &[Done, Unusable, CutShort]),
     ("flightgear", &[Done, Unusable]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
