@@ -10,6 +10,7 @@ mod demo;
 mod diff;
 mod flightgear;
 mod fly;
+mod ground;
 mod identity;
 mod json;
 mod linearize;
