@@ -94,7 +94,8 @@ impl Scene {
             .with_context(|| format!("cannot read {}", path.display()))?;
         let mut start = aircraft::start("scenario.toml", &reader.setup.scenario_toml)?;
         start.origin = reader.initial.plant.origin;
-        let began = reader.identity.get(logs::Identity::STARTED).and_then(Moment::of_unix_ns);
+        let began = &reader.identity;
+        let began = Moment::of_unix_ns(began.get(logs::Identity::STARTED));
         Ok(Self { start: Some(start), moment: began })
     }
 }

@@ -11,6 +11,7 @@ mod diff;
 mod doctor;
 mod flightgear;
 mod fly;
+mod ground;
 mod identity;
 mod json;
 mod linearize;
