@@ -1,5 +1,7 @@
 //! `tiltrotor fly`.
 
+mod hardware;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -32,9 +34,13 @@ pub struct Args {
     /// Play the timed events of a file
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
-    /// Cockpit map for --stick (a built-in one without)
+    /// Cockpit map for --stick: a file, or the name of a shipped one (without: of the shipped ones
+    /// those for what is plugged in)
     #[arg(long, value_name = "FILE", requires = "stick")]
     map: Option<PathBuf>,
+    /// Print what moves which control, and fly nothing
+    #[arg(long, requires = "stick")]
+    controls: bool,
     #[command(flatten)]
     pub common: Common,
     #[command(flatten)]
@@ -120,6 +126,9 @@ impl Common {
 
 /// Flies, and sums up.
 pub fn run(args: &Args) -> Result<Status> {
+    if args.controls {
+        return hardware::say_controls(args.map.as_deref());
+    }
     let mut plan = Plan::new(&args.common)?;
     plan.flight.self_check = args.self_check;
     let inputs: Vec<&Path> =
@@ -175,6 +184,8 @@ pub struct Plan {
     pipe: Option<fs::File>,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
+    /// What the crew calls its devices.
+    crew: hardware::Named,
     /// Where its pictures go.
     _claim: Option<Claim>,
 }
@@ -207,6 +218,7 @@ impl Plan {
         Ok(Self {
             pipe,
             phases: Vec::new(),
+            crew: hardware::Named::default(),
             _claim: claim,
             flight: Flight {
                 aircraft,
@@ -267,21 +279,9 @@ impl Plan {
         Ok(())
     }
 
-    #[cfg(feature = "sticks")]
     fn plug_in(&mut self, map: &mut cockpit::Params, path: Option<&Path>) -> Result<()> {
-        let (name, text) = text_or(path, "stick.toml", aircraft::STICK_MAP)?;
-        *map = aircraft::cockpit(&name, &text)?;
-        let sticks = recorder::sticks::Sticks::start(map)?;
-        for (number, name) in &sticks.found {
-            complain!("device {number}: {name}");
-        }
-        self.flight.sticks = Some(sticks);
+        self.crew = hardware::plug_in(&mut self.flight, map, path)?;
         Ok(())
-    }
-
-    #[cfg(not(feature = "sticks"))]
-    fn plug_in(&mut self, _: &mut cockpit::Params, _: Option<&Path>) -> Result<()> {
-        bail!("this program was built without `sticks`: build it with the default features")
     }
 
     /// Flies, with a line of progress on a terminal.
@@ -290,7 +290,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, _claim } = self;
+        let Self { flight, pipe: _pipe, phases, crew, _claim } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
@@ -301,6 +301,9 @@ impl Plan {
                 bar.tick();
                 for warning in warnings(&told, &now) {
                     bar.suspend(|| complain!("WARNING: {warning}"));
+                }
+                for line in crew.lines(&told, &now) {
+                    bar.suspend(|| complain!("{line}"));
                 }
                 told = now;
             }

@@ -5,7 +5,9 @@ mod console;
 
 mod claim;
 mod condition;
+mod controls;
 mod demo;
+mod devices;
 mod diff;
 mod fly;
 mod identity;
@@ -13,6 +15,8 @@ mod json;
 mod linearize;
 mod log;
 mod made;
+#[cfg(feature = "sticks")]
+mod maps;
 mod numbers;
 mod replay_live;
 mod report;
@@ -42,6 +46,8 @@ struct Cli {
 enum Command {
     /// Fly in real time (or --fast) with a stick, a pilot model or a script.
     Fly(fly::Args),
+    /// Sticks, throttles, pedals and gamepads: what is there, what is flown with, a new map.
+    Devices(devices::Args),
     /// Refly a log, live in FlightGear.
     Replay(replay_live::Args),
     /// Do logs refly to the same bits?
@@ -100,6 +106,7 @@ fn unwritten(error: &std::io::Error) -> Status {
 fn run(command: Command) -> anyhow::Result<Status> {
     match command {
         Command::Fly(args) => fly::run(&args),
+        Command::Devices(args) => devices::run(&args),
         Command::Replay(args) => replay_live::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Diff(args) => diff::run(&args),

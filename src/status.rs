@@ -27,8 +27,9 @@ pub enum Status {
 use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusable};
 
 /// The statuses with which each verb ends.
-const VERBS: [(&str, &[Status]); 19] = [
+const VERBS: [(&str, &[Status]); 20] = [
     ("fly", &[Done, Unusable, CutShort]),
+    ("devices", &[Done, Unusable]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
     ("verify", &[Done, Differs, Unusable, NeverClosed, Compared]),

@@ -6,6 +6,8 @@
 
 mod clock;
 mod crew;
+#[cfg(feature = "sticks")]
+pub mod devices;
 mod end;
 mod flight;
 mod hands;
@@ -18,8 +20,6 @@ mod rehearsal;
 pub mod script;
 mod self_check;
 pub mod statistics;
-#[cfg(feature = "sticks")]
-pub mod sticks;
 pub mod writer;
 
 pub use clock::{Pace, Woken};

@@ -51,7 +51,7 @@ pub(crate) struct Live<'a, S> {
     outputs: Outputs,
     crew: Crew,
     #[cfg(feature = "sticks")]
-    sticks: Option<crate::sticks::Sticks>,
+    sticks: Option<crate::devices::Devices>,
     /// Of the tick under way.
     events: Vec<DeviceEvent>,
     events_taken: u64,
@@ -88,7 +88,12 @@ where
     S: FnMut(&Aircraft, &State, &Inputs) -> (State, Outputs),
 {
     /// Begins the log and the threads beside the loop.
-    pub(crate) fn begin(flight: Flight, progress: &'a Progress, step: S) -> Result<Self, FlyError> {
+    pub(crate) fn begin(
+        #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to take"))]
+        mut flight: Flight,
+        progress: &'a Progress,
+        step: S,
+    ) -> Result<Self, FlyError> {
         let aircraft = flight.aircraft;
         let state = analysis::start::state_at(&flight.start, &aircraft)?;
         let world = flight.start.world.world();
@@ -104,24 +109,23 @@ where
             &state,
         )?;
         #[cfg(feature = "sticks")]
-        for (device, name) in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
-            let (device, name, tick) = (*device, name.clone(), state.tick);
-            writer.device(&DeviceIdentity {
-                tick,
-                device,
-                name,
-                mapped: 1,
-                ..Default::default()
-            })?;
+        for device in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
+            writer.device(&DeviceIdentity { tick: state.tick, ..device.clone() })?;
         }
         output.begun()?;
         let (tell, told) = mpsc::channel();
-        let mut recording = Recording::start(writer, &aircraft, &state, told);
+        #[cfg(feature = "sticks")]
+        let later = flight.sticks.as_mut().and_then(|sticks| sticks.later.take());
+        #[cfg(not(feature = "sticks"))]
+        let later = None;
+        let mut recording = Recording::start(writer, &aircraft, &state, told, later);
         let found = Arc::clone(&progress.mismatches);
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
         // After the other threads have begun: what is claimed is for the loop.
-        let refused = if flight.real_time { claim_real_time() } else { Vec::new() };
+        let mut refused = if flight.real_time { claim_real_time() } else { Vec::new() };
+        #[cfg(feature = "sticks")]
+        refused.extend(flight.sticks.iter_mut().flat_map(|sticks| sticks.refused.drain(..)));
         let outputs = observe(&aircraft, &state, &world);
         recording.show(&outputs, state.plant.attitude);
         Ok(Self {
@@ -210,6 +214,7 @@ where
         #[cfg(feature = "sticks")]
         if let Some(sticks) = &mut self.sticks {
             sticks.take(tick, &mut self.events);
+            self.progress.devices(&self.events);
         }
         let phase = self.crew.act(tick, &self.outputs, &mut self.events);
         self.events_taken += self.events.len() as u64;

@@ -4,6 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use engine::Outputs;
+use engine::cockpit::{self, Waiting};
+use engine::inputs::{DeviceEvent, EventKind};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 
 /// Signals that end a flight in an orderly way, and what they are called. After SIGXFSZ the log cannot
@@ -23,6 +25,11 @@ pub struct Progress {
     log_failed: AtomicBool,
     slips: AtomicU64,
     slipped_ns: AtomicU64,
+    /// Devices that are unplugged, a bit each.
+    unplugged: AtomicU64,
+    /// Controls that wait for pick-up and are to go up to it, and down, a bit each by their places.
+    waiting_up: AtomicU64,
+    waiting_down: AtomicU64,
     /// The last signal that came, by its place in [`ENDING`], from 1.
     signal: Arc<AtomicUsize>,
     pub(crate) mismatches: Arc<AtomicU64>,
@@ -53,6 +60,12 @@ pub struct Snapshot {
     pub slipped_s: f64,
     /// Seconds of flight that were not the same when reflown in flight.
     pub mismatches: u64,
+    /// Devices of the map that were there and are not, a bit each by their numbers.
+    pub unplugged: u64,
+    /// Controls that wait for pick-up, a bit each by their places: the hardware has to come up to them.
+    pub waiting_up: u64,
+    /// The same, down.
+    pub waiting_down: u64,
 }
 
 impl Progress {
@@ -94,6 +107,9 @@ impl Progress {
             slips: self.slips.load(Ordering::Relaxed),
             slipped_s: self.slipped_ns.load(Ordering::Relaxed) as f64 * 1e-9,
             mismatches: self.mismatches.load(Ordering::Relaxed),
+            unplugged: self.unplugged.load(Ordering::Relaxed),
+            waiting_up: self.waiting_up.load(Ordering::Relaxed),
+            waiting_down: self.waiting_down.load(Ordering::Relaxed),
         }
     }
 
@@ -101,6 +117,18 @@ impl Progress {
     pub(crate) fn slipped(&self, slip_ns: u64) {
         self.slipped_ns.fetch_add(slip_ns, Ordering::Relaxed);
         self.slips.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Devices that came or went.
+    pub(crate) fn devices(&self, events: &[DeviceEvent]) {
+        for event in events.iter().filter(|event| event.device < 64) {
+            let bit = 1 << event.device;
+            match EventKind::from_u64(event.kind) {
+                Some(EventKind::Disconnected) => self.unplugged.fetch_or(bit, Ordering::Relaxed),
+                Some(EventKind::Connected) => self.unplugged.fetch_and(!bit, Ordering::Relaxed),
+                _ => continue,
+            };
+        }
     }
 
     /// Written by the loop, without waiting.
@@ -113,6 +141,12 @@ impl Progress {
         self.phase.store(phase, Ordering::Relaxed);
         self.overruns.store(overruns, Ordering::Relaxed);
         self.log_failed.store(log_failed, Ordering::Relaxed);
+        let (mut up, mut down) = (0, 0);
+        for Waiting { control, up: is_up, .. } in cockpit::waiting(&outputs.cockpit) {
+            *(if is_up { &mut up } else { &mut down }) |= 1 << control as u64;
+        }
+        self.waiting_up.store(up, Ordering::Relaxed);
+        self.waiting_down.store(down, Ordering::Relaxed);
     }
 }
 
