@@ -4,8 +4,9 @@
 //! machines, or from a busy one, can be read against each other.
 
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use divan::Bencher;
@@ -13,11 +14,12 @@ use divan::counter::ItemsCount;
 use engine::inputs::World;
 use engine::start::Start;
 use engine::{Aircraft, Inputs, State, step};
+use logs::compact::Copied;
 use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Observed, Setup};
 use recorder::pilots::Pilot;
-use recorder::writer::{Recording, ToRecord};
+use recorder::writer::{Recording, Saver, ToRecord};
 use recorder::{Flight, Progress, fly};
 use replay::{Options, ReflyOptions, Window};
 
@@ -68,7 +70,8 @@ fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
         sticks: None,
         out: out.clone(),
         force: true,
-        real_time: false,
+        real_time: None,
+        situation: None,
         ticks_max: Some(ticks),
         link: None,
         self_check: false,
@@ -101,7 +104,9 @@ fn hand_over_of_a_tick(bencher: Bencher) {
     let file = fs::File::create(&out).expect("a file");
     let writer =
         FlightWriter::create(file, &setup(), &identity, &aircraft, "", &state).expect("a log");
-    let mut recording = Recording::start(writer, &aircraft, &state, std::sync::mpsc::channel().1);
+    let told = std::sync::mpsc::channel().1;
+    let saver = Saver::beside(&out, &aircraft.name);
+    let mut recording = Recording::start(writer, &aircraft, &state, told, saver);
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);
@@ -109,7 +114,7 @@ fn hand_over_of_a_tick(bencher: Bencher) {
         recording.put(ToRecord::State(State { tick: tick + 1, ..state }, Observed::default()));
         recording.put(ToRecord::Timing(TimingRecord { tick, ..TimingRecord::default() }));
     });
-    recording.finish().0.expect("a whole log");
+    recording.finish(BTreeMap::new()).0.expect("a whole log");
     let _ = fs::remove_file(out);
 }
 
@@ -131,14 +136,21 @@ fn verify_a_minute(bencher: Bencher) {
     let _ = fs::remove_file(log);
 }
 
+/// Compacts a log, with a state every two seconds.
+fn compacted(log: &Path, out: &Path) -> Copied {
+    let output = Output::beside(out, true, &[log]).expect("a place");
+    let made = logs::compact::compact(log, &output, 500, replay::flown, |_| ());
+    output.finish().expect("in its place");
+    made.expect("a compacted log")
+}
+
 /// Ten minutes of flight, and the same compacted: flown once for all that is done with them.
 fn ten_minutes() -> &'static (PathBuf, PathBuf) {
     static LOGS: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
     LOGS.get_or_init(|| {
         let log = flown("long", LONG_TICKS).0;
         let compact = scratch("long-compact");
-        let made = logs::compact::compact(&log, &compact, true, 500, replay::flown, |_| ());
-        let bytes = made.expect("a compacted log").bytes as f64;
+        let bytes = compacted(&log, &compact).bytes as f64;
         eprintln!("compacted: {:.1} B a tick", bytes / LONG_TICKS as f64);
         (log, compact)
     })
@@ -159,9 +171,7 @@ fn verify_ten_minutes(bencher: Bencher, form: &str) {
 fn compact_ten_minutes(bencher: Bencher) {
     let (whole, _) = ten_minutes();
     let out = scratch("compacted");
-    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| {
-        logs::compact::compact(whole, &out, true, 500, replay::flown, |_| ()).expect("a log")
-    });
+    bencher.counter(ItemsCount::new(LONG_TICKS)).bench_local(|| compacted(whole, &out));
     let _ = fs::remove_file(out);
 }
 

@@ -1,26 +1,53 @@
-//! What moves which control, in words: the cockpit map as a pilot reads it.
+//! What moves the aircraft: the active cockpit map and the keys, for `fly --controls` and the panel.
 
-use engine::cockpit::{AxisBinding, AxisControl, ButtonBinding, Device, Params, Side, Travel};
+use engine::cockpit::{AxisBinding, ButtonBinding, Device, Params, Side, Travel};
+use engine::inputs::Failures;
+use recorder::keyboard::{self, KeyAction};
 
-/// The map, a line a control. `names` are the devices that are there, by number.
-pub fn lines(map: &Params, name: impl Fn(usize) -> String) -> Vec<String> {
+/// The keys that are not in the list of actions, and what they do.
+const OTHERS: [(&str, &str); 3] = [
+    ("F5 to F8", "goes on from a start position"),
+    ("? or Tab", "next page: flight, controls"),
+    ("Q, Ctrl-C", "ends the flight"),
+];
+
+/// The controls of a map line by line; those of the keyboard by their keys. `names` are what the crew calls
+/// its devices, by their numbers, as far as they are known.
+pub fn lines(map: &Params, names: &[String]) -> Vec<String> {
     let mut lines = Vec::new();
-    for &control in AxisControl::ALL {
-        for (number, device) in map.device.iter().enumerate() {
-            for axis in device.axis.iter().filter(|axis| axis.control == control) {
-                let (words, how) = (control.facts().words, how(axis));
-                lines.push(format!("  {words:<22} {} of {}{how}", axis.code, name(number)));
-            }
-        }
-    }
     for (number, device) in map.device.iter().enumerate() {
+        if device.name == keyboard::DEVICE {
+            lines.extend(keyboard());
+            continue;
+        }
+        let name = names.get(number).unwrap_or(&device.name);
+        lines.push(format!("device {number}, {name}:"));
+        for axis in &device.axis {
+            let (code, words) = (axis.code.to_string(), axis.control.facts().words);
+            lines.push(format!("  {code:<14} {words}{}", how(axis)));
+        }
         for button in &device.button {
-            let words = button.control.facts().words;
-            let how = how_pressed(button);
-            lines.push(format!("  {words:<22} {} of {}{how}", button.code, name(number)));
+            let (code, words) = (button.code.to_string(), button.control.facts().words);
+            lines.push(format!("  {code:<14} {words}{}", how_pressed(button)));
         }
     }
     lines
+}
+
+/// The keys.
+pub fn keyboard() -> Vec<String> {
+    let own = KeyAction::ALL.iter().map(|action| {
+        let facts = action.facts();
+        (facts.on.to_string(), facts.description.trim_end_matches('.').to_string())
+    });
+    let others = OTHERS.iter().map(|(on, what)| (on.to_string(), what.to_string()));
+    let failures = (1..)
+        .zip(Failures::FACTS)
+        .map(|(number, facts)| (format!("{number}"), format!("fails or mends: {}", facts.words)));
+    let keys = own.chain(failures).chain(others);
+    std::iter::once("keyboard:".to_string())
+        .chain(keys.map(|(on, what)| format!("  {on:<12} {what}")))
+        .collect()
 }
 
 /// The controls of a device, in words.

@@ -18,7 +18,7 @@ pub struct Args {
 /// Flies, verifies, saves for the viewer, and sums up.
 pub fn run(args: &Args) -> Result<Status> {
     let out = &args.common.out;
-    let mut plan = Plan::new(&args.common)?;
+    let mut plan = Plan::new(&args.common, None)?;
     plan.flight.self_check = true;
     #[cfg(feature = "rerun")]
     let saved = out.with_extension("rrd");
@@ -37,12 +37,14 @@ pub fn run(args: &Args) -> Result<Status> {
         say!("It takes three and a half minutes; `--fast` flies it in seconds. Ctrl-C ends it.");
     }
     if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
-        say!("Live in FlightGear at {}.", link.destination());
+        let places: Vec<String> = link.destinations().map(|place| place.to_string()).collect();
+        say!("Live in FlightGear at {}.", places.join(", "));
     }
-    let real_time = plan.flight.real_time;
-    let landing = plan.fly()?;
+    let real_time = plan.flight.real_time.is_some();
+    let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &out.display().to_string());
     if landing.log.is_err() {
+        args.common.hold(&mut landing)?;
         return Ok(Status::CutShort);
     }
     let status = match verify::verify_one(out) {
@@ -56,5 +58,6 @@ pub fn run(args: &Args) -> Result<Status> {
         output.finish()?;
         say!("{}: {}, for `rerun {0}`", saved.display(), logs::text::size(bytes));
     }
+    args.common.hold(&mut landing)?;
     Ok(status)
 }

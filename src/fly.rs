@@ -3,24 +3,29 @@
 mod hardware;
 
 use std::fs;
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
-use engine::STEP_S;
 use engine::cockpit;
-use flightgear::Link;
+use engine::{Aircraft, STEP_S};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use logs::output;
+use recorder::keyboard::{Keyboard, Orders};
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
-use recorder::{End, Flight, Landing, Progress, Snapshot, fly};
+use recorder::situation;
+use recorder::{End, Flight, Landing, Progress, RealTime, Restart, Snapshot, check_clock, fly};
 
 use crate::claim::Claim;
+use crate::link_args::LinkArgs;
+use crate::panel::{Cockpit, Panel};
 use crate::status::Status;
-use crate::{condition, identity, numbers, report};
+use crate::{condition, controls, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
 #[derive(clap::Args)]
@@ -34,17 +39,36 @@ pub struct Args {
     /// Play the timed events of a file
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
+    /// Fly with the keys of this terminal; `--controls` lists them
+    #[arg(long)]
+    keyboard: bool,
+    /// Say what moves the aircraft in such a flight, and fly nothing
+    #[arg(long)]
+    controls: bool,
     /// Cockpit map for --stick: a file, or the name of a shipped one (without: of the shipped ones
     /// those for what is plugged in)
     #[arg(long, value_name = "FILE", requires = "stick")]
     map: Option<PathBuf>,
-    /// Print what moves which control, and fly nothing
-    #[arg(long, requires = "stick")]
-    controls: bool,
     #[command(flatten)]
     pub common: Common,
     #[command(flatten)]
     air: Air,
+    /// Begin at a start position: runway, hover-50ft, approach-60, downwind
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["scenario", "from_trim"])]
+    start: Option<String>,
+    /// Begin with a situation that was saved before
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["from_trim", "start"])]
+    situation: Option<PathBuf>,
+    /// Later than this, and the clock is anchored anew: the flight stands still, and says so, ms
+    #[arg(long, value_name = "MS", default_value_t = 100.0)]
+    #[arg(value_parser = numbers::between(5.0, 10_000.0, "ms"), allow_negative_numbers = true)]
+    slip_limit: f64,
+    /// Keep the loop on this processor, counted from 0
+    #[arg(long, value_name = "N")]
+    cpu: Option<usize>,
+    /// Show a line of progress instead of the panel
+    #[arg(long, conflicts_with = "keyboard")]
+    no_panel: bool,
     /// End the flight after this long, s
     #[arg(long, value_name = "SECONDS")]
     #[arg(value_parser = numbers::duration_s, allow_negative_numbers = true)]
@@ -104,22 +128,16 @@ pub struct Common {
     /// Overwrite an existing log
     #[arg(long)]
     pub force: bool,
-    /// Where FlightGear listens (--native-fdm=socket,in,60,HOST,PORT,udp)
-    /// [default: 127.0.0.1:5501; nothing is sent with --fast]
-    #[arg(long, value_name = "HOST:PORT")]
-    flightgear: Option<String>,
-    /// Send nothing to FlightGear
-    #[arg(long, conflicts_with = "flightgear")]
-    no_flightgear: bool,
+    #[command(flatten)]
+    pub link: LinkArgs,
 }
 
 impl Common {
-    /// Where the pictures go. A flight as fast as it goes would fly over somebody's flight in real time.
-    fn destination(&self) -> Option<&str> {
-        match &self.flightgear {
-            Some(destination) => Some(destination),
-            None if self.no_flightgear || self.fast => None,
-            None => Some(flightgear::DEFAULT_DESTINATION),
+    /// Keeps the last picture up in FlightGear, for as long as it is to be.
+    pub fn hold(&self, landing: &mut Landing) -> Result<()> {
+        match landing.hold.take() {
+            Some(hold) => self.link.keep(hold).map(|_| ()),
+            None => Ok(()),
         }
     }
 }
@@ -127,12 +145,18 @@ impl Common {
 /// Flies, and sums up.
 pub fn run(args: &Args) -> Result<Status> {
     if args.controls {
-        return hardware::say_controls(args.map.as_deref());
+        return say_controls(args);
     }
-    let mut plan = Plan::new(&args.common)?;
+    let mut plan = Plan::new(&args.common, args.start.as_deref())?;
+    plan.keep_time(args);
+    if let Some(file) = &args.situation {
+        plan.flight.situation = Some(situation::load(file, &plan.flight.aircraft.name)?);
+    }
     plan.flight.self_check = args.self_check;
-    let inputs: Vec<&Path> =
-        [&args.map, &args.script].into_iter().filter_map(|file| file.as_deref()).collect();
+    let inputs: Vec<&Path> = [&args.map, &args.script, &args.situation]
+        .into_iter()
+        .filter_map(|file| file.as_deref())
+        .collect();
     output::refuse(&args.common.out, args.common.force, &inputs)?;
     if let Some(seconds) = args.duration {
         plan.flight.ticks_max = Some((seconds / STEP_S).round() as u64);
@@ -141,8 +165,14 @@ pub fn run(args: &Args) -> Result<Status> {
         plan.begin_in(&args.air)?;
     }
     let virtual_hands = args.pilot.is_some() || args.script.is_some();
-    if !args.stick && !virtual_hands {
-        bail!("nobody flies: give --stick, --pilot NAME ({}) or --script FILE", pilot_names());
+    if !args.stick && !args.keyboard && !virtual_hands {
+        bail!(
+            "nobody flies: give --stick, --keyboard, --pilot NAME ({}) or --script FILE",
+            pilot_names()
+        );
+    }
+    if args.keyboard {
+        plan.look_for_keys(args.common.fast)?;
     }
     let mut map = cockpit::Params::default();
     if args.stick {
@@ -159,15 +189,20 @@ pub fn run(args: &Args) -> Result<Status> {
         let text = read(path)?;
         plan.flight.hands.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
     }
+    if args.keyboard {
+        plan.add_keyboard(&mut map)?;
+    }
     plan.set_map(map)?;
     if let (Some(name), None, true) = (&args.pilot, args.duration, args.common.fast)
         && !pilots::lands(name)
     {
         bail!("the {name} pilot never lands: give --duration SECONDS with --fast");
     }
-    let real_time = plan.flight.real_time;
-    let landing = plan.fly()?;
+    let real_time = plan.flight.real_time.is_some();
+    plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
+    let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
+    args.common.hold(&mut landing)?;
     Ok(if is_whole(&landing) { Status::Done } else { Status::CutShort })
 }
 
@@ -186,18 +221,26 @@ pub struct Plan {
     phases: Vec<&'static str>,
     /// What the crew calls its devices.
     crew: hardware::Named,
+    /// Where the keys go.
+    orders: Option<Orders>,
+    /// Whether there is a panel, or a line of progress.
+    panel: bool,
     /// Where its pictures go.
-    _claim: Option<Claim>,
+    _claims: Vec<Claim>,
 }
 
 impl Plan {
     /// Aircraft, scenario, log and link; hands and cockpit map are still to come.
-    pub fn new(common: &Common) -> Result<Self> {
+    pub fn new(common: &Common, start: Option<&str>) -> Result<Self> {
         let (aircraft_name, aircraft_toml) =
             text_or(common.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;
         let aircraft = aircraft::aircraft(&aircraft_name, &aircraft_toml)?;
-        let (scenario_name, scenario_toml) =
-            text_or(common.scenario.as_deref(), "default.toml", aircraft::DEFAULT_SCENARIO)?;
+        let (scenario_name, scenario_toml) = match start {
+            Some(name) => (name.to_string(), start_position(name)?.to_string()),
+            None => {
+                text_or(common.scenario.as_deref(), "default.toml", aircraft::DEFAULT_SCENARIO)?
+            }
+        };
         let start = aircraft::start(&scenario_name, &scenario_toml)?;
         let fuel_kg_max = aircraft.weight_balance.fuel_kg_max;
         if start.fuel_kg > fuel_kg_max {
@@ -208,18 +251,19 @@ impl Plan {
             );
         }
         let robot_description = aircraft::urdf(&aircraft);
-        let link = common.destination().map(Link::new).transpose()?;
-        let claim = common.destination().map(Claim::of);
+        let (link, claims) = common.link.open(common.fast)?.unzip();
         let inputs: Vec<&Path> =
             [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
         output::refuse(&common.out, common.force, &inputs)?;
-        let pipe = recorder::pipe::take(&common.out)
+        let pipe = recorder::open_pipe(&common.out)
             .with_context(|| format!("cannot write {}", common.out.display()))?;
         Ok(Self {
             pipe,
             phases: Vec::new(),
             crew: hardware::Named::default(),
-            _claim: claim,
+            orders: None,
+            panel: false,
+            _claims: claims.unwrap_or_default(),
             flight: Flight {
                 aircraft,
                 start,
@@ -231,7 +275,8 @@ impl Plan {
                 sticks: None,
                 out: common.out.clone(),
                 force: common.force,
-                real_time: !common.fast,
+                real_time: (!common.fast).then(RealTime::default),
+                situation: None,
                 ticks_max: None,
                 link,
                 self_check: false,
@@ -271,6 +316,35 @@ impl Plan {
         Ok(())
     }
 
+    /// How punctual the loop is to be.
+    fn keep_time(&mut self, args: &Args) {
+        if let Some(real_time) = &mut self.flight.real_time {
+            real_time.slip_limit_ns = (args.slip_limit * 1e6).round() as u64;
+            real_time.cpu = args.cpu;
+        }
+    }
+
+    /// Whether keys can fly.
+    fn look_for_keys(&self, fast: bool) -> Result<()> {
+        if fast {
+            bail!("--keyboard flies in real time: leave out --fast");
+        }
+        if !on_a_terminal() {
+            bail!("--keyboard needs a terminal: neither its keys nor its screen can be had here");
+        }
+        Ok(())
+    }
+
+    /// Lets the keys fly.
+    fn add_keyboard(&mut self, map: &mut cockpit::Params) -> Result<()> {
+        let own = aircraft::cockpit("keyboard.toml", aircraft::KEYBOARD_MAP)?;
+        map.device.extend(own.device);
+        let (keyboard, orders) = Keyboard::of(map).context("the map has no keyboard")?;
+        self.flight.hands.push(Box::new(keyboard));
+        self.orders = Some(orders);
+        Ok(())
+    }
+
     /// The cockpit map as flown.
     pub fn set_map(&mut self, map: cockpit::Params) -> Result<()> {
         self.flight.setup.cockpit_toml = toml::to_string(&map)?;
@@ -284,13 +358,16 @@ impl Plan {
         Ok(())
     }
 
-    /// Flies, with a line of progress on a terminal.
+    /// Flies with the panel, or with a line of progress on a terminal.
     pub fn fly(self) -> Result<Landing> {
+        if self.panel {
+            return self.fly_with_panel();
+        }
         let progress = Progress::default();
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, crew, _claim } = self;
+        let Self { flight, pipe: _pipe, phases, crew, _claims, .. } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
@@ -313,6 +390,88 @@ impl Plan {
         let landing = landing.map_err(|_| anyhow::anyhow!("the flight died of a fault of ours"))?;
         Ok(landing?)
     }
+}
+
+impl Plan {
+    /// Flies with the panel.
+    fn fly_with_panel(self) -> Result<Landing> {
+        let progress = Progress::default();
+        progress.stop_on_signals()?;
+        let Self { flight, pipe: _pipe, phases, orders, crew, _claims, .. } = self;
+        let verdict = flight
+            .real_time
+            .map_or_else(String::new, |wanted| check_clock(wanted, CLOCK_CHECK).verdict());
+        complain!("{verdict}");
+        let aircraft = flight.aircraft.clone();
+        let cockpit = Cockpit {
+            log: flight.out.display().to_string(),
+            aircraft: aircraft.name.clone(),
+            envelope: aircraft.envelope.clone(),
+            phases,
+            verdict,
+            controls: controls::lines(&aircraft.cockpit, crew.names()),
+            keys_fly: orders.is_some(),
+        };
+        let panel = Panel {
+            cockpit,
+            orders,
+            situation: flight.situation,
+            start: Box::new(move |place| {
+                let (name, _, text) = aircraft::STARTS.get(place)?;
+                Some(reposition(name, text, &aircraft))
+            }),
+        };
+        let (landing, told) = thread::scope(|scope| {
+            let flying = scope.spawn(|| fly(flight, &progress));
+            let told = panel.show(&progress, || !flying.is_finished());
+            if told.is_err() {
+                // Without its panel a flight by hand cannot go on.
+                progress.stop.store(true, Ordering::Relaxed);
+            }
+            (flying.join(), told)
+        });
+        for told in told? {
+            complain!("{:.1} s: {}", told.tick as f64 * STEP_S, told.words);
+        }
+        let landing = landing.map_err(|_| anyhow::anyhow!("the flight died of a fault of ours"))?;
+        Ok(landing?)
+    }
+}
+
+/// How long the clock is tried before a flight with the panel.
+const CLOCK_CHECK: Duration = Duration::from_millis(500);
+
+/// Whether keys can be had and a screen is there.
+fn on_a_terminal() -> bool {
+    std::io::stdin().is_terminal() && std::io::stderr().is_terminal()
+}
+
+/// The scenario of a start position.
+fn start_position(name: &str) -> Result<&'static str> {
+    let known = aircraft::STARTS.iter().find(|(known, ..)| *known == name);
+    let Some((_, _, text)) = known else {
+        let names: Vec<String> =
+            aircraft::STARTS.iter().map(|(name, what, _)| format!("{name}: {what}")).collect();
+        bail!("no start position is called `{name}`; there are {}", names.join("; "));
+    };
+    Ok(text)
+}
+
+/// The state of a start position, to go on from.
+fn reposition(name: &str, text: &str, aircraft: &Aircraft) -> Result<Restart> {
+    let start = aircraft::start(name, text)?;
+    Ok(Restart::Reposition(analysis::start::state_at(&start, aircraft)?))
+}
+
+/// Says what moves the aircraft.
+fn say_controls(args: &Args) -> Result<Status> {
+    if args.stick {
+        hardware::say_controls(args.map.as_deref())?;
+    }
+    if args.keyboard || !args.stick {
+        controls::keyboard().iter().for_each(|line| say!("{line}"));
+    }
+    Ok(Status::Done)
 }
 
 /// Where the flight is, in a line.

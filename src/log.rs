@@ -13,11 +13,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use engine::STEP_S;
 use logs::evolution::Difference;
+use logs::output::Output;
 use logs::text::{at, size};
 use logs::{Ending, FlightReader, LogError, Messages, OpenOptions};
 use recorder::statistics::Statistics;
-use replay::{Facts, Window};
+use replay::{Facts, Outcome, Window};
 
+use crate::made;
 use crate::status::Status;
 use crate::window::WindowArgs;
 
@@ -208,12 +210,16 @@ fn summary(log: &Path, window: &WindowArgs) -> Result<Status> {
 }
 
 fn recover(broken: &Path, out: &Path, force: bool) -> Result<Status> {
-    let done = logs::recover(broken, out, force).with_context(|| broken.display().to_string())?;
+    let output = Output::beside(out, force, &[broken])?;
+    let done = logs::recover(broken, &output, replay::flown)
+        .with_context(|| broken.display().to_string())?;
+    // Its digests follow from each other; where this program flies otherwise, that is what it is.
+    let made = made::finished(output, &[Outcome::NeverClosed, Outcome::Diverged])?;
+    let kept = done.tick - done.first_tick;
     say!(
-        "{}: kept {} ticks ({:.3} s) of {}, each proven by its checksum and digest",
+        "{}: kept {kept} ticks ({:.3} s) of {}, each proven by its checksum and digest",
         out.display(),
-        done.tick,
-        done.tick as f64 * STEP_S,
+        kept as f64 * STEP_S,
         broken.display()
     );
     say!("lost       all after tick {}: {}", done.tick, done.reason);
@@ -223,8 +229,15 @@ fn recover(broken: &Path, out: &Path, force: bool) -> Result<Status> {
     if done.messages_foreign > 0 {
         say!("           {} messages on channels of others", done.messages_foreign);
     }
+    if done.messages_unproven > 0 {
+        say!(
+            "           {} messages for viewers and tables that the kept ticks do not prove",
+            done.messages_unproven
+        );
+    }
     say!("size       {} of {}", size(done.bytes_written), size(done.bytes_read));
-    Ok(Status::Done)
+    say!("new log    {made}");
+    Ok(Status::from(&made))
 }
 
 fn say_facts(of: &str, facts: &BTreeMap<String, String>) {
@@ -235,7 +248,13 @@ fn say_facts(of: &str, facts: &BTreeMap<String, String>) {
 
 /// What any version can say of a log: what it says of itself, and how many messages there are.
 fn what_is_there(log: &Path) -> Result<Status> {
-    let mut messages = Messages::open(log, OpenOptions::default())?;
+    let mut messages = match Messages::open(log, OpenOptions::default()) {
+        Err(LogError::Compacted) => {
+            say!("  it is compacted: only the program that wrote it says more of it");
+            return Ok(Status::Unusable);
+        }
+        opened => opened?,
+    };
     let mut channels: BTreeMap<String, (u64, usize)> = BTreeMap::new();
     while let Some(message) = messages.next_message() {
         let numbers = message.layout().map_or(0, |layout| layout.numbers().len());

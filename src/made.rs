@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use logs::output::Output;
-use replay::{Judgement, Options, Outcome, Source, verify};
+use replay::{Judgement, Outcome, Source, proven};
 
 use crate::status::Status;
 
@@ -17,26 +17,9 @@ pub struct Made {
 impl Made {
     /// Reflies a log that was just written, and puts it in its place when it is sound.
     pub fn of(source: &Source, output: Output) -> Result<Self> {
-        let made = Self::judged(source, output.unfinished(), output.path())?;
-        output.finish()?;
-        Ok(made)
-    }
-
-    /// Reflies a log that is in its place already.
-    pub fn finished(source: &Source, out: &Path) -> Result<Self> {
-        Self::judged(source, out, out)
-    }
-
-    fn judged(source: &Source, written: &Path, named: &Path) -> Result<Self> {
-        let verdict = verify(written, &Options::default(), |_| ());
-        let judgement = verdict.with_context(|| named.display().to_string())?.judgement;
         // One that was made of a recovered log says so.
-        if !matches!(judgement.outcome, Outcome::Exact | Outcome::NeverClosed) {
-            bail!(
-                "{}: not made: read again, it is not what was written: {judgement}",
-                named.display()
-            );
-        }
+        let sound = [Outcome::Exact, Outcome::NeverClosed];
+        let judgement = finished(output, &sound)?;
         Ok(Self { source: source.judgement.clone(), judgement })
     }
 
@@ -46,4 +29,12 @@ impl Made {
         say!("source     {}: {}", log.display(), self.source);
         Status::gravest([Status::from(&self.source), Status::from(&self.judgement)])
     }
+}
+
+/// Reflies a log that was just written, and puts it in its place when it is what is expected.
+pub fn finished(output: Output, expected: &[Outcome]) -> Result<Judgement> {
+    let name = || output.path().display().to_string();
+    let judgement = proven(output.unfinished(), expected).with_context(name)?;
+    output.finish()?;
+    Ok(judgement)
 }

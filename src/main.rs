@@ -13,11 +13,13 @@ mod fly;
 mod identity;
 mod json;
 mod linearize;
+mod link_args;
 mod log;
 mod made;
 #[cfg(feature = "sticks")]
 mod maps;
 mod numbers;
+mod panel;
 mod replay_live;
 mod report;
 mod status;

@@ -50,6 +50,14 @@ pub fn duration_s(text: &str) -> Result<f64, String> {
     between(engine::STEP_S, 1e7, "s")(text)
 }
 
+/// Reads how long something is kept up: a time, or `forever`.
+pub fn hold_s(text: &str) -> Result<f64, String> {
+    if text == "forever" {
+        return Ok(f64::INFINITY);
+    }
+    between(0.0, 1e7, "s, or `forever`")(text)
+}
+
 /// What is wrong with a number that was refused, in a line: `--speed-kt 1e9: expected -60 to 400 kt`.
 pub fn in_words(error: &clap::Error) -> Option<String> {
     use clap::error::{ContextKind, ContextValue, ErrorKind};

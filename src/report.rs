@@ -8,6 +8,8 @@ use recorder::statistics::Durations;
 use recorder::{End, Landing};
 use replay::ReplayError;
 
+use crate::link_args;
+
 /// Why a log is not reflown, and what can be done about it.
 pub fn refusal(error: &ReplayError) -> String {
     match error {
@@ -49,12 +51,18 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
             flown.slip_ns as f64 * 1e-9
         );
     }
+    if flown.implausible_events > 0 {
+        say!(
+            "inputs     {} device events had a time that cannot be, and are not part of the latency",
+            flown.implausible_events
+        );
+    }
     line("step", &flown.step, "the flight model");
     line("hand-over", &flown.record, "to the log's writer");
     // Without a packet there is no picture that could be late.
-    let pictures = landing.sent > 0;
+    let pictures = landing.pictures.iter().any(|way| way.sent > 0);
     if pictures {
-        line("to picture", &flown.sent, "from sampling the inputs to the packet for FlightGear");
+        line("to picture", &flown.sent, "from when a tick was due to the packet for FlightGear");
     }
     if pictures && flown.latency.count() > 0 {
         line("latency", &flown.latency, "from the kernel's time of an input to the packet");
@@ -63,7 +71,9 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
              40 ms)"
         );
     }
-    say!("FlightGear {} packets sent, {} not", landing.sent, landing.unsent);
+    for words in link_args::in_words(&landing.pictures) {
+        say!("FlightGear {words}");
+    }
     match &landing.log {
         Ok(closed) => say!(
             "log        {out}, {} ({:.0} B a tick), digest {:016x}, nothing dropped",
@@ -77,6 +87,7 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
         say!("           the log that was there before is kept as {}", older.display());
     }
     beside_the_flight(landing);
+    say!("debrief    {}", landing.debrief);
     if !matches!(landing.end, End::Done | End::TimeUp) {
         say!("end        {}", landing.end);
     }

@@ -45,7 +45,7 @@ const VERBS: [(&str, &[Status]); 20] = [
     ("log clip", &[Done, Unusable, NeverClosed]),
     ("log compact", &[Done, Unusable, NeverClosed]),
     ("log expand", &[Done, Unusable, NeverClosed]),
-    ("log recover", &[Done, Unusable]),
+    ("log recover", &[Differs, Unusable, NeverClosed]),
     ("trim", &[Done, Unusable, NotConverged]),
     ("linearize", &[Done, Unusable, NotConverged]),
 ];

@@ -98,6 +98,7 @@ pub fn run(args: &Args) -> Result<Status> {
         setup: &setup,
         identity: &identity,
         timing: false,
+        devices: &source.devices,
         picture_of: Some(log),
     };
     let mut baseline = Baseline::of(&reader).with_context(name)?;
@@ -185,7 +186,7 @@ impl Baseline {
     /// Flies the tick as it was recorded.
     fn fly(&mut self, tick: &Tick) -> &State {
         let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
-        self.state = step(&self.aircraft, &self.state, &inputs).0;
+        self.state = step(&self.aircraft, &tick.begins_with(&self.state), &inputs).0;
         if !tick.chained || tick.record.state != self.state {
             self.differs.get_or_insert(self.state.tick);
         }

@@ -35,8 +35,8 @@ page, folder, write = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 TIMING = re.compile(r"^(overruns|late by|step|hand-over|to picture|writer|self-check|reflown in)\b")
 # When the flight was flown, and what follows from it.
 MOMENT = re.compile(r"(seal|started_unix_ns): .*")
-# Nobody listens: how many packets the system refuses is chance.
-PACKETS = re.compile(r"\d+ packets sent to (\S+), \d+ not")
+# How many pictures a wall second of a fast replay holds is the machine's.
+PACKETS = re.compile(r"\d+ pictures sent to (\S+), \d+ not")
 SIZE = re.compile(r"\d+(\.\d+)? (B|kB|MB)\b")
 
 

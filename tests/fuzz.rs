@@ -17,6 +17,7 @@ use common::{Dice, Forgery, folder, hover};
 use engine::inputs::World;
 use engine::{Inputs, Outputs, State, step};
 use flightgear::net_fdm::NetFdm;
+use logs::output::Output;
 use logs::records::{EVENTS, HARDWARE, INPUTS, OUTPUTS, STATE, TIMING};
 use logs::{Ending, FlightReader, LogError, Messages, OpenOptions};
 use recorder::script::Script;
@@ -264,7 +265,9 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
             assert!(flight(&Forgery::of(&broken)) == flight(&whole), "accepted");
         }
         let _ = verdict.map(|verdict| verdict.to_string());
-        if logs::recover(&broken, &fixed, true).is_ok() {
+        let output = Output::beside(&fixed, true, &[]).expect("a place");
+        if logs::recover(&broken, &output, flown_by).is_ok() {
+            output.finish().expect("in its place");
             // What was recovered was flown: the same messages, from the first on.
             let (kept, flown) = (flight(&Forgery::of(&fixed)), flight(&whole));
             assert!(kept.len() <= flown.len() && kept == flown[..kept.len()], "upgraded");
@@ -280,7 +283,7 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
 }
 
 /// The aircraft of a log, for compacted ones.
-fn flown(setup: &logs::Setup) -> Result<logs::compact::Flown, LogError> {
+fn flown_by(setup: &logs::Setup) -> Result<logs::compact::Flown, LogError> {
     let refused = |error: aircraft::ConfigError| LogError::NotAFlight(error.to_string());
     let map = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml).map_err(refused)?;
     let aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)
@@ -321,7 +324,9 @@ fn no_bytes_of_a_compacted_log_break_its_reader() {
     let (_, log) = small_log("fuzz-compacted");
     let place = folder("fuzz-compacted-logs");
     let (compacted, file) = (place.join("compacted.mcap"), place.join("broken.mcap"));
-    logs::compact::compact(&log, &compacted, true, 10, flown, |_| {}).expect("compacted");
+    let output = Output::beside(&compacted, true, &[]).expect("a place");
+    logs::compact::compact(&log, &output, 10, flown_by, |_| {}).expect("compacted");
+    output.finish().expect("in its place");
     let bytes = fs::read(&compacted).expect("a log");
     // Most of it is the aircraft: half of the changes are after that.
     let flight = bytes.len() - bytes.len() / 4;
@@ -331,7 +336,7 @@ fn no_bytes_of_a_compacted_log_break_its_reader() {
     };
     fuzz("compacted", 300, make, |broken| {
         fs::write(&file, broken).expect("a file");
-        let open = OpenOptions { aircraft_of: Some(flown), across_versions: false };
+        let open = OpenOptions { aircraft_of: Some(flown_by), across_versions: false };
         let Ok(mut reader) = logs::open(&file, open) else { return };
         let (mut ticks, mut whole) = (0, reader.intact);
         while let Ok(Some(tick)) = reader.next_tick() {
@@ -440,7 +445,8 @@ fn no_script_breaks_its_reader_and_what_it_accepts_can_be_played() {
                 let (events, world) = (&mut events, &mut world);
                 let (mut phase, mut gave_up) = ((0, ""), None);
                 let (phase, done, gave_up) = (&mut phase, &mut done, &mut gave_up);
-                let mut reach = Reach { tick, events, world, phase, done, gave_up };
+                let (restart, save) = (&mut None, &mut false);
+                let mut reach = Reach { tick, events, world, phase, done, gave_up, restart, save };
                 script.act(&seen, &mut reach);
             }
         },
@@ -449,7 +455,11 @@ fn no_script_breaks_its_reader_and_what_it_accepts_can_be_played() {
 
 #[test]
 fn no_packet_breaks_its_reader() {
-    let packet = NetFdm::from_outputs(&Outputs::default());
+    let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("our own file");
+    let (outputs, world) = (Outputs::default(), World::default());
+    let lamps = flightgear::Lamps::default();
+    let scene = flightgear::Scene { aircraft: &aircraft, outputs: &outputs, world: &world, lamps };
+    let packet = NetFdm::of(&scene);
     fuzz(
         "packet",
         20_000,
@@ -459,6 +469,18 @@ fn no_packet_breaks_its_reader() {
                 // Read back as it came, and finite where we look.
                 assert_eq!(packet.bytes(), bytes);
                 assert!(packet.longitude_deg().is_finite() && packet.latitude_deg().is_finite());
+            }
+        },
+    );
+    let channel = flightgear::Channel::of(&scene);
+    fuzz(
+        "channel packet",
+        20_000,
+        |dice| mutated(channel.bytes(), dice),
+        |bytes| {
+            if let Ok(channel) = flightgear::Channel::parse(bytes) {
+                assert_eq!(channel.bytes(), bytes);
+                assert!(channel.values().all(|(_, _, value)| value.is_finite()));
             }
         },
     );

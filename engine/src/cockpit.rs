@@ -321,6 +321,8 @@ pub struct Waiting {
     pub control: AxisControl,
     /// Where it is, and stays until then.
     pub at_norm: f64,
+    /// Where the hardware would put it; nothing of a flap lever, which has detents.
+    pub hardware_norm: Option<f64>,
     /// Whether the hardware has to come up to it, or right or aft; else down, left or forward.
     pub up: bool,
 }
@@ -331,6 +333,10 @@ pub fn waiting(controls: &State) -> impl Iterator<Item = Waiting> {
         |&control| Waiting {
             control,
             at_norm: (control.facts().get)(controls),
+            hardware_norm: control
+                .facts()
+                .hardware
+                .map(|_| asked_for(controls, control.facts(), hardware(controls, control.facts()))),
             up: !controls.force_trim.is_above(control as u64),
         },
     )
@@ -640,7 +646,12 @@ mod tests {
         let found = update(&map, &trimmed, &[event(EventKind::AxisPosition, 1, 122)]);
         assert!(near(found.collective_norm, 0.81));
         let told: Vec<_> = waiting(&found).collect();
-        let expected = Waiting { control: AxisControl::Collective, at_norm: 0.81, up: true };
+        let expected = Waiting {
+            control: AxisControl::Collective,
+            at_norm: 0.81,
+            hardware_norm: Some(0.61),
+            up: true,
+        };
         assert_eq!(told, [expected]);
         assert!(near(found.pick_up.hardware.collective_norm, 0.61));
         let moved = update(&map, &found, &[event(EventKind::Axis, 1, 100)]);

@@ -1,15 +1,21 @@
-//! The way to FlightGear: one UDP packet at a time, never waiting, never failing the flight.
+//! The way to FlightGear: two UDP packets a picture to each place, never waiting, never failing the
+//! flight.
+//!
+//! # The newest picture wins
+//! FlightGear reads everything that waits for it once a frame, and shows the last. While it stands
+//! still, its system keeps the *oldest* packets, two thirds of a second of them, and drops the rest.
+//! So whoever has nothing new to show goes on sending the last picture ([`Link::hold`]): the first one
+//! after FlightGear has emptied its queue is the newest.
 //!
 //! # Assumptions
-//! The system's send buffer is the only queue. What does not go out at once is dropped and counted:
-//! the next packet is newer and says all of it again.
+//! The system's send buffer is the only queue here. What does not go out at once is dropped and
+//! counted: the next picture is newer and says all of it again.
 
-use std::io;
+use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
 
-use engine::Outputs;
-
-use crate::net_fdm::NetFdm;
+use crate::hold::Hold;
+use crate::picture::Picture;
 
 /// Where `fgfs --native-fdm=socket,in,60,127.0.0.1,5501,udp` listens.
 pub const DEFAULT_DESTINATION: &str = "127.0.0.1:5501";
@@ -31,6 +37,12 @@ pub enum LinkError {
         /// As given.
         destination: String,
     },
+    /// No room for the second channel.
+    #[error("`{destination}`: the second channel goes to the next port, and there is none")]
+    NoNextPort {
+        /// As given.
+        destination: String,
+    },
     /// The system gives no socket.
     #[error("cannot open a UDP socket to {address}")]
     Socket {
@@ -41,50 +53,182 @@ pub enum LinkError {
     },
 }
 
-/// A socket that sends to one FlightGear.
+/// What is known of who receives the pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Listener {
+    /// Nothing: UDP does not tell who listens, only, on some ways, that nobody does.
+    Unknown,
+    /// Nobody listens at the port of FlightGear's own packets.
+    Nobody,
+    /// Nobody listens at the port of the second channel: FlightGear was started without it.
+    NoChannel,
+}
+
+/// How many pictures went to a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sent {
+    /// Where to; the second channel goes to the port after it.
+    pub destination: SocketAddr,
+    /// Pictures handed to the system. Whether they arrived, UDP does not say.
+    pub sent: u64,
+    /// Pictures that the system refused, wholly or in part.
+    pub dropped: u64,
+    /// What was known of the receiver last.
+    pub listener: Listener,
+}
+
+/// The ways to one FlightGear or several.
 #[derive(Debug)]
 pub struct Link {
-    socket: UdpSocket,
-    destination: SocketAddr,
+    ways: Vec<Way>,
+}
+
+impl Link {
+    /// Opens the ways to `HOST:PORT` each. Resolving a name may take its time: not for the loop.
+    ///
+    /// Whether anyone listens there does not matter.
+    ///
+    /// # Errors
+    /// When one of them is no destination.
+    pub fn new<S: AsRef<str>>(destinations: &[S]) -> Result<Self, LinkError> {
+        let ways = destinations.iter().map(|place| Way::new(place.as_ref()));
+        Ok(Self { ways: ways.collect::<Result<_, _>>()? })
+    }
+
+    /// Sends a picture. Never waits, allocates or fails.
+    pub fn send(&mut self, picture: &Picture) {
+        for way in &mut self.ways {
+            way.send(picture);
+        }
+    }
+
+    /// Goes on sending a picture, 250 times a second, on a thread of its own.
+    pub fn hold(self, picture: Picture) -> Hold {
+        Hold::start(self, picture)
+    }
+
+    /// Where pictures go.
+    pub fn destinations(&self) -> impl Iterator<Item = SocketAddr> + '_ {
+        self.ways.iter().map(|way| way.fdm.destination)
+    }
+
+    /// Whether it is known that nobody listens anywhere.
+    pub fn nobody_listens(&self) -> bool {
+        self.ways.iter().all(|way| way.listener() == Listener::Nobody)
+    }
+
+    /// How many pictures went to each place.
+    pub fn sent(&self) -> Vec<Sent> {
+        self.ways.iter().map(Way::told).collect()
+    }
+}
+
+/// The way to one FlightGear.
+#[derive(Debug)]
+struct Way {
+    fdm: Socket,
+    channel: Socket,
     sent: u64,
     dropped: u64,
 }
 
-impl Link {
-    /// Opens the way to `HOST:PORT`. Resolving a name may take its time: not for the loop.
-    ///
-    /// Whether anyone listens there does not matter.
-    pub fn new(destination: &str) -> Result<Self, LinkError> {
-        let destination = resolve(destination)?;
-        let socket = open(destination)
-            .map_err(|source| LinkError::Socket { address: destination, source })?;
-        Ok(Self { socket, destination, sent: 0, dropped: 0 })
+impl Way {
+    fn new(destination: &str) -> Result<Self, LinkError> {
+        let fdm = resolve(destination)?;
+        let mut channel = fdm;
+        let Some(next) = fdm.port().checked_add(1) else {
+            return Err(LinkError::NoNextPort { destination: destination.to_owned() });
+        };
+        channel.set_port(next);
+        let open =
+            |address| Socket::new(address).map_err(|source| LinkError::Socket { address, source });
+        Ok(Self { fdm: open(fdm)?, channel: open(channel)?, sent: 0, dropped: 0 })
     }
 
-    /// Sends what FlightGear is to show of a step. Never waits, allocates or fails.
-    pub fn send(&mut self, outputs: &Outputs) {
-        let packet = NetFdm::from_outputs(outputs);
-        // No error is worth the flight: a full buffer, nobody listening, a network gone.
-        match self.socket.send_to(packet.bytes(), self.destination) {
-            Ok(_) => self.sent += 1,
-            Err(_) => self.dropped += 1,
+    fn send(&mut self, picture: &Picture) {
+        let fdm = self.fdm.send(picture.fdm.bytes());
+        let channel = self.channel.send(picture.channel.bytes());
+        if fdm && channel {
+            self.sent += 1;
+        } else {
+            self.dropped += 1;
         }
     }
 
-    /// Where packets go.
-    pub fn destination(&self) -> SocketAddr {
-        self.destination
+    fn listener(&self) -> Listener {
+        match (self.fdm.refused, self.channel.refused) {
+            (true, _) => Listener::Nobody,
+            (false, true) => Listener::NoChannel,
+            (false, false) => Listener::Unknown,
+        }
     }
 
-    /// Packets handed to the system. Whether they arrived, UDP does not say.
-    pub fn sent(&self) -> u64 {
-        self.sent
+    fn told(&self) -> Sent {
+        Sent {
+            destination: self.fdm.destination,
+            sent: self.sent,
+            dropped: self.dropped,
+            listener: self.listener(),
+        }
+    }
+}
+
+/// A socket that sends to one port.
+#[derive(Debug)]
+struct Socket {
+    socket: UdpSocket,
+    destination: SocketAddr,
+    /// The last news was that nobody listens.
+    refused: bool,
+}
+
+impl Socket {
+    fn new(destination: SocketAddr) -> io::Result<Self> {
+        // Bound to the loopback, nothing from outside can reach the socket.
+        let local: IpAddr = match (destination.ip(), destination.ip().is_loopback()) {
+            (IpAddr::V4(_), true) => Ipv4Addr::LOCALHOST.into(),
+            (IpAddr::V4(_), false) => Ipv4Addr::UNSPECIFIED.into(),
+            (IpAddr::V6(_), true) => Ipv6Addr::LOCALHOST.into(),
+            (IpAddr::V6(_), false) => Ipv6Addr::UNSPECIFIED.into(),
+        };
+        let socket = UdpSocket::bind((local, 0))?;
+        // Connected, so that the news that nobody listens comes back: as an error of the packet after
+        // it, which is then sent once more. A network that cannot be reached now may be later.
+        let connected = socket.connect(destination);
+        if let Err(error) = connected
+            && !is_about_the_network(&error)
+        {
+            return Err(error);
+        }
+        socket.set_nonblocking(true)?;
+        Ok(Self { socket, destination, refused: false })
     }
 
-    /// Packets that the system refused.
-    pub fn dropped(&self) -> u64 {
-        self.dropped
+    /// Whether the system took a packet. No error is worth the flight: a full buffer, nobody listening,
+    /// a network gone.
+    fn send(&mut self, bytes: &[u8]) -> bool {
+        let sent = self.socket.send(bytes);
+        // The error is the one before's: this packet has not gone out yet.
+        self.refused = matches!(&sent, Err(error) if is_refusal(error));
+        if self.refused {
+            return self.socket.send(bytes).is_ok();
+        }
+        match sent {
+            Err(error) if error.kind() == ErrorKind::NotConnected => {
+                self.socket.send_to(bytes, self.destination).is_ok()
+            }
+            sent => sent.is_ok(),
+        }
     }
+}
+
+/// Nobody listens: Windows calls it a reset.
+fn is_refusal(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset)
+}
+
+fn is_about_the_network(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::NetworkUnreachable | ErrorKind::HostUnreachable)
 }
 
 fn resolve(destination: &str) -> Result<SocketAddr, LinkError> {
@@ -101,123 +245,5 @@ fn choose(addresses: &[SocketAddr]) -> Option<SocketAddr> {
     usable().find(SocketAddr::is_ipv4).or_else(|| usable().next())
 }
 
-fn open(destination: SocketAddr) -> io::Result<UdpSocket> {
-    // Bound to the loopback, nothing from outside can reach the socket.
-    let local: IpAddr = match (destination.ip(), destination.ip().is_loopback()) {
-        (IpAddr::V4(_), true) => Ipv4Addr::LOCALHOST.into(),
-        (IpAddr::V4(_), false) => Ipv4Addr::UNSPECIFIED.into(),
-        (IpAddr::V6(_), true) => Ipv6Addr::LOCALHOST.into(),
-        (IpAddr::V6(_), false) => Ipv6Addr::UNSPECIFIED.into(),
-    };
-    let socket = UdpSocket::bind((local, 0))?;
-    // Not connected: the news that nobody listens would come back as an error of the next packet,
-    // and cost the first one that someone would hear.
-    socket.set_nonblocking(true)?;
-    Ok(socket)
-}
-
 #[cfg(test)]
-mod tests {
-    use std::time::Duration;
-
-    use engine::state::Geodetic;
-
-    use super::*;
-    use crate::net_fdm::LENGTH;
-
-    /// Long enough for a loopback packet on a busy machine.
-    const PATIENCE: Duration = Duration::from_secs(10);
-
-    fn receiver(address: &str) -> UdpSocket {
-        let socket = UdpSocket::bind(address).expect("a loopback socket");
-        socket.set_read_timeout(Some(PATIENCE)).expect("a timeout");
-        socket
-    }
-
-    fn address(socket: &UdpSocket) -> String {
-        socket.local_addr().expect("a bound socket").to_string()
-    }
-
-    fn receive(socket: &UdpSocket) -> NetFdm {
-        let mut bytes = [0; LENGTH + 1];
-        let length = socket.recv(&mut bytes).expect("a packet");
-        NetFdm::parse(&bytes[..length]).expect("a valid packet")
-    }
-
-    fn at_height(height_m: f64) -> Outputs {
-        Outputs { place: Geodetic { height_m, ..Geodetic::default() }, ..Outputs::default() }
-    }
-
-    #[test]
-    fn what_is_sent_arrives() {
-        let flightgear = receiver("127.0.0.1:0");
-        let mut link = Link::new(&address(&flightgear)).expect("a link");
-        for height_m in [100.0, 200.0, 300.0] {
-            let outputs = at_height(height_m);
-            link.send(&outputs);
-            assert_eq!(receive(&flightgear), NetFdm::from_outputs(&outputs));
-        }
-        assert_eq!((link.sent(), link.dropped()), (3, 0));
-        assert_eq!(link.destination().to_string(), address(&flightgear));
-    }
-
-    #[test]
-    fn the_local_end_of_a_loopback_link_is_on_the_loopback() {
-        let flightgear = receiver("127.0.0.1:0");
-        let link = Link::new(&address(&flightgear)).expect("a link");
-        let local = link.socket.local_addr().expect("a bound socket");
-        assert!(local.ip().is_loopback() && local.port() != 0);
-    }
-
-    #[test]
-    fn nobody_listening_is_no_failure_and_who_comes_late_is_served() {
-        let early = receiver("127.0.0.1:0");
-        let place = address(&early);
-        let mut link = Link::new(&place).expect("a link");
-        drop(early);
-        for _ in 0..100 {
-            link.send(&Outputs::default());
-        }
-        assert_eq!((link.sent(), link.dropped()), (100, 0));
-
-        let late = receiver(&place);
-        link.send(&at_height(1.0));
-        assert_eq!(receive(&late), NetFdm::from_outputs(&at_height(1.0)));
-    }
-
-    #[test]
-    fn a_receiver_that_never_reads_holds_up_nothing() {
-        let deaf = receiver("127.0.0.1:0");
-        let mut link = Link::new(&address(&deaf)).expect("a link");
-        for _ in 0..5000 {
-            link.send(&Outputs::default());
-        }
-        assert_eq!(link.sent() + link.dropped(), 5000);
-    }
-
-    #[test]
-    fn of_a_host_s_addresses_flightgear_s_kind_is_taken() {
-        let v6 = SocketAddr::from((Ipv6Addr::LOCALHOST, 5501));
-        let v4 = SocketAddr::from((Ipv4Addr::LOCALHOST, 5501));
-        assert_eq!(choose(&[v6, v4]), Some(v4));
-        assert_eq!(choose(&[v6]), Some(v6));
-        assert_eq!(choose(&[]), None);
-    }
-
-    #[test]
-    fn the_default_destination_is_a_destination() {
-        let link = Link::new(DEFAULT_DESTINATION).expect("a link");
-        assert_eq!(link.destination().to_string(), DEFAULT_DESTINATION);
-    }
-
-    #[test]
-    fn a_destination_that_is_none_is_named() {
-        for destination in ["", "127.0.0.1", "127.0.0.1:x", "127.0.0.1:70000"] {
-            let error = Link::new(destination).expect_err("no link");
-            assert!(matches!(error, LinkError::Resolve { .. }), "{destination}: {error}");
-            assert!(error.to_string().contains(destination));
-        }
-        let error = Link::new("127.0.0.1:0").expect_err("no link");
-        assert!(matches!(error, LinkError::NoAddress { .. }), "{error}");
-    }
-}
+mod tests;

@@ -22,21 +22,24 @@
 //! gravity, although FlightGear calls them the pilot's: the aircraft file holds no seat. Height above mean sea level is given as
 //! FlightGear's, which is above the ellipsoid. One tank holds all fuel. The engine model gives the
 //! fuel flow of both engines together; it is split as the power is. Pressures and temperatures of
-//! the engines are not modelled and sent as 0.
+//! the engines are not modelled: what is sent moves with their power, for display only.
 //!
 //! # Source
 //! The offsets were produced by a compiler from FlightGear 2020.3's header and read back from the
 //! running program. Version 25 was never released.
 
-use engine::Outputs;
+use engine::display::{Travel, Travels};
 use engine::frames::{Body, Vec3};
-use engine::landing_gear::Leg;
 use engine::math::{TAU, atan2, clamp, max, wrap_angle};
 use engine::outputs::Validity;
 use engine::pair::Pair;
-use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_PER_RADPS};
+use engine::units::{DEG_PER_RAD, FOOT_M, HOUR_S, KNOT_MPS, POUND_KG, RPM_PER_RADPS};
 use zerocopy::network_endian::{F32, F64, I32, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+use crate::channel::between;
+use crate::display;
+use crate::scene::Scene;
 
 /// The version of the format.
 pub const VERSION: u32 = 24;
@@ -62,17 +65,6 @@ const AGL_UNKNOWN_M: f64 = -9999.0;
 
 /// JP-4 at 6.5 lb per US gallon, which makes the XV-15 tanks their 229 gallons. `R+`
 const FUEL_KG_PER_GAL: f64 = 6.5 * POUND_KG;
-
-/// Elevator and rudder either way, full. `TMX`
-const TAIL_SURFACE_RAD_MAX: f64 = 20.0 / DEG_PER_RAD;
-/// Flap fully down. `TMX`
-const FLAP_RAD_MAX: f64 = 75.0 / DEG_PER_RAD;
-/// Flaperon beyond the flap's setting, full up; down it goes 13.8°. `TMX`
-const FLAPERON_RAD_MAX: f64 = 23.8 / DEG_PER_RAD;
-/// Travel of a strut, rounded up from the main struts' 0.343 m. `TMX`
-const STROKE_M: f64 = 0.35;
-/// An engine below this part of the power it could give has stopped: idle is well above.
-const RUNNING_POWER_NORM: f64 = 0.01;
 
 /// One packet, as it is on the wire.
 ///
@@ -144,9 +136,9 @@ pub struct NetFdm {
     pub rpm: [F32; ENGINES_MAX],
     /// Fuel flow, US gal/h.
     pub fuel_flow_gph: [F32; ENGINES_MAX],
-    /// Fuel pressure, psi; not modelled.
+    /// Fuel pressure, psi; for display only.
     pub fuel_px_psi: [F32; ENGINES_MAX],
-    /// Exhaust gas temperature, °F; not modelled.
+    /// Exhaust gas temperature, °F; for display only.
     pub egt_degf: [F32; ENGINES_MAX],
     /// Cylinder head temperature, °F; there are none.
     pub cht_degf: [F32; ENGINES_MAX],
@@ -154,9 +146,9 @@ pub struct NetFdm {
     pub mp_osi_inhg: [F32; ENGINES_MAX],
     /// Turbine inlet temperature, of no stated unit; not modelled.
     pub tit: [F32; ENGINES_MAX],
-    /// Oil temperature, °F; not modelled.
+    /// Oil temperature, °F; for display only.
     pub oil_temp_degf: [F32; ENGINES_MAX],
-    /// Oil pressure, psi; not modelled.
+    /// Oil pressure, psi; for display only.
     pub oil_px_psi: [F32; ENGINES_MAX],
     /// Tanks that follow, at most [`TANKS_MAX`].
     pub num_tanks: U32,
@@ -168,7 +160,7 @@ pub struct NetFdm {
     pub wow: [U32; WHEELS_MAX],
     /// 0 up … 1 down.
     pub gear_pos_norm: [F32; WHEELS_MAX],
-    /// Steering, −1..1; the nose wheel casters, so 0.
+    /// Steering, right positive: the nose wheel as it casters along its way; 1 is a radian.
     pub gear_steer_norm: [F32; WHEELS_MAX],
     /// 0 extended … 1 fully compressed.
     pub gear_compression_norm: [F32; WHEELS_MAX],
@@ -178,21 +170,21 @@ pub struct NetFdm {
     pub warp_s: I32,
     /// Visibility, m; ignored.
     pub visibility_m: F32,
-    /// Elevator, trailing edge down positive; 1 is 20°.
+    /// Elevator, trailing edge down positive; 1 is full travel (20°).
     pub elevator_norm: F32,
     /// Elevator trim tab; there is none.
     pub elevator_trim_tab_norm: F32,
-    /// Left flap, down positive; 1 is 75°. FlightGear overwrites it with the right one.
+    /// Left flap, down positive; 1 is full travel (75°). FlightGear overwrites it with the right one.
     pub left_flap_norm: F32,
-    /// Right flap, down positive; 1 is 75°.
+    /// Right flap, down positive; 1 is full travel (75°).
     pub right_flap_norm: F32,
-    /// Left flaperon beyond the flap's setting, trailing edge down positive; 1 is 23.8°.
+    /// Left flaperon beyond the flap's setting, trailing edge down positive; 1 is full travel up (23.8°).
     pub left_aileron_norm: F32,
-    /// Right flaperon beyond the flap's setting, trailing edge down positive; 1 is 23.8°.
+    /// Right flaperon beyond the flap's setting, trailing edge down positive; 1 is full travel up (23.8°).
     pub right_aileron_norm: F32,
-    /// Rudders, trailing edge right positive; 1 is 20°.
+    /// Rudders, trailing edge right positive; 1 is full travel (20°).
     pub rudder_norm: F32,
-    /// Nose wheel; it casters, so 0.
+    /// Nose wheel, as [`NetFdm::gear_steer_norm`].
     pub nose_wheel_norm: F32,
     /// Speed brake; there is none.
     pub speedbrake_norm: F32,
@@ -236,19 +228,14 @@ pub enum PacketError {
 }
 
 impl NetFdm {
-    /// What FlightGear is to show of a step. Whatever is not a finite number is sent as 0.
-    pub fn from_outputs(outputs: &Outputs) -> Self {
-        let surfaces = &outputs.actuators;
-        let gear = &outputs.landing_gear;
-        let wheels = [&gear.nose, &gear.main.left, &gear.main.right];
+    /// What FlightGear is to show of a moment. Whatever is not a finite number is sent as 0.
+    pub fn of(scene: &Scene<'_>) -> Self {
+        let outputs = scene.outputs;
         let velocity = outputs.velocity_mps * (1.0 / FOOT_M);
         let body_velocity = outputs.body_velocity_mps * (1.0 / FOOT_M);
         let specific_force = outputs.specific_force_mps2 * (1.0 / FOOT_M);
-        let flap_norm = single(surfaces.flap_rad / FLAP_RAD_MAX);
-        let rpm = outputs.rotor_speed_radps * RPM_PER_RADPS;
-        let fuel_gal = outputs.fuel_kg / FUEL_KG_PER_GAL;
+        let rest = Self { version: U32::new(VERSION), ..zerocopy::FromZeros::new_zeroed() };
         Self {
-            version: U32::new(VERSION),
             longitude_rad: position(wrap_angle(outputs.place.longitude_rad)),
             latitude_rad: position(outputs.place.latitude_rad),
             altitude_m: double(outputs.place.height_m),
@@ -274,23 +261,65 @@ impl NetFdm {
             a_z_pilot_ftps2: single(specific_force.z),
             stall_warning: stall_warning(outputs.validity),
             slip_deg: slip(outputs.specific_force_mps2),
+            ..rest
+        }
+        .with_engines(scene)
+        .with_gear(scene)
+        .with_surfaces(scene)
+    }
+
+    fn with_engines(self, scene: &Scene<'_>) -> Self {
+        let outputs = scene.outputs;
+        let flow_gph = display::fuel_flow_kg_per_s(&outputs.engines)
+            .map(|flow_kg_per_s| flow_kg_per_s * HOUR_S / FUEL_KG_PER_GAL);
+        let fuel_gal = outputs.fuel_kg / FUEL_KG_PER_GAL;
+        Self {
             num_engines: U32::new(2),
             eng_state: engine_states(&outputs.engines),
-            rpm: engines(Pair::both(rpm)),
-            fuel_flow_gph: engines(fuel_flows_gph(&outputs.engines)),
+            rpm: engines(Pair::both(outputs.rotor_speed_radps * RPM_PER_RADPS)),
+            fuel_flow_gph: engines(flow_gph),
+            fuel_px_psi: engines(display::fuel_psi(scene)),
+            egt_degf: engines(display::exhaust_gas_degf(scene)),
+            oil_temp_degf: engines(display::oil_degf(scene)),
+            oil_px_psi: engines(display::oil_psi(scene)),
             num_tanks: U32::new(1),
             fuel_quantity_gal: [single(fuel_gal), F32::ZERO, F32::ZERO, F32::ZERO],
+            ..self
+        }
+    }
+
+    fn with_gear(self, scene: &Scene<'_>) -> Self {
+        let wheels = [0, 1, 2].map(|index| display::leg(scene.outputs, index));
+        let gear = &scene.aircraft.landing_gear;
+        let strokes_m = [gear.nose.stroke_m, gear.main.stroke_m, gear.main.stroke_m];
+        let extension = single(scene.outputs.actuators.gear_extension_norm);
+        let steer = single(display::castor_rad(scene) / display::CASTOR_RAD_MAX);
+        let compression =
+            |index: usize| single(clamp(wheels[index].compression_m / strokes_m[index], 0.0, 1.0));
+        Self {
             num_wheels: U32::new(3),
             wow: wheels.map(|leg| U32::new(u32::from(leg.push_n > 0.0))),
-            gear_pos_norm: [single(surfaces.gear_extension_norm); WHEELS_MAX],
-            gear_compression_norm: wheels.map(compression),
-            elevator_norm: single(surfaces.elevator_rad / TAIL_SURFACE_RAD_MAX),
+            gear_pos_norm: [extension; WHEELS_MAX],
+            gear_steer_norm: [steer, F32::ZERO, F32::ZERO],
+            gear_compression_norm: [0, 1, 2].map(compression),
+            nose_wheel_norm: steer,
+            ..self
+        }
+    }
+
+    fn with_surfaces(self, scene: &Scene<'_>) -> Self {
+        let surfaces = &scene.outputs.actuators;
+        let travels = Travels::of(&scene.aircraft.actuators);
+        let part = |angle_rad: f64, travel: &Travel| single(angle_rad / travel.greatest_rad());
+        let flap_norm = part(surfaces.flap_rad, &travels.flap);
+        Self {
+            elevator_norm: part(surfaces.elevator_rad, &travels.elevator),
             left_flap_norm: flap_norm,
             right_flap_norm: flap_norm,
-            left_aileron_norm: single(surfaces.flaperon_rad.left / FLAPERON_RAD_MAX),
-            right_aileron_norm: single(surfaces.flaperon_rad.right / FLAPERON_RAD_MAX),
-            rudder_norm: single(surfaces.rudder_right_rad / TAIL_SURFACE_RAD_MAX),
-            ..zerocopy::FromZeros::new_zeroed()
+            left_aileron_norm: part(surfaces.flaperon_rad.left, &travels.flaperon),
+            right_aileron_norm: part(surfaces.flaperon_rad.right, &travels.flaperon),
+            rudder_norm: part(surfaces.rudder_right_rad, &travels.rudder),
+            ..self
         }
     }
 
@@ -332,15 +361,15 @@ impl NetFdm {
     }
 }
 
-/// Single precision; 0 for what is not finite there.
+/// Single precision; 0 for what is not finite there, and no −0, which displays would show.
 fn single(value: f64) -> F32 {
-    let narrow = value as f32;
+    let narrow = value as f32 + 0.0;
     F32::new(if narrow.is_finite() { narrow } else { 0.0 })
 }
 
-/// 0 for what is not finite.
+/// 0 for what is not finite, and no −0.
 fn double(value: f64) -> F64 {
-    F64::new(if value.is_finite() { value } else { 0.0 })
+    F64::new(if value.is_finite() { value + 0.0 } else { 0.0 })
 }
 
 /// Latitude or longitude in FlightGear's radians.
@@ -371,48 +400,52 @@ fn engines(each: Pair<f64>) -> [F32; ENGINES_MAX] {
     [single(each.left), single(each.right), F32::ZERO, F32::ZERO]
 }
 
-/// Nothing tells whether an engine runs but its power.
 fn engine_states(engines: &engine::engines::Outputs) -> [U32; ENGINES_MAX] {
-    let state = engines.power_w.map(|power_w| {
-        let runs = power_w > RUNNING_POWER_NORM * engines.available_w;
+    let state = |index| {
+        let runs = display::runs(engines, index);
         U32::new(if runs { ENGINE_RUNNING } else { ENGINE_OFF })
-    });
-    [state.left, state.right, U32::ZERO, U32::ZERO]
+    };
+    [state(0), state(1), U32::ZERO, U32::ZERO]
 }
 
-fn fuel_flows_gph(engines: &engine::engines::Outputs) -> Pair<f64> {
-    let both_gph = engines.fuel_flow_kg_per_s * 3600.0 / FUEL_KG_PER_GAL;
-    let power_w = engines.power_w.sum();
-    engines.power_w.map(|each_w| {
-        let part = if power_w > 0.0 { each_w / power_w } else { 0.5 };
-        both_gph * part
-    })
-}
-
-fn compression(leg: &Leg) -> F32 {
-    single(clamp(leg.compression_m / STROKE_M, 0.0, 1.0))
-}
-
-/// Whether a field holds finite numbers only.
-trait Finite {
+/// Fields of floating-point numbers.
+trait Floats {
+    /// Whether all are finite.
     fn all_finite(&self) -> bool;
+    /// `part` of the way to others, the shorter way round where they start again at `wrap`.
+    fn toward(self, to: Self, part: f64, wrap: f64) -> Self;
 }
 
-impl Finite for F32 {
+impl Floats for F32 {
     fn all_finite(&self) -> bool {
         self.get().is_finite()
     }
-}
 
-impl Finite for F64 {
-    fn all_finite(&self) -> bool {
-        self.get().is_finite()
+    fn toward(self, to: Self, part: f64, wrap: f64) -> Self {
+        single(between(f64::from(self.get()), f64::from(to.get()), part, wrap))
     }
 }
 
-impl<const N: usize> Finite for [F32; N] {
+impl Floats for F64 {
     fn all_finite(&self) -> bool {
-        self.iter().all(Finite::all_finite)
+        self.get().is_finite()
+    }
+
+    fn toward(self, to: Self, part: f64, wrap: f64) -> Self {
+        double(between(self.get(), to.get(), part, wrap))
+    }
+}
+
+impl<const N: usize> Floats for [F32; N] {
+    fn all_finite(&self) -> bool {
+        self.iter().all(Floats::all_finite)
+    }
+
+    fn toward(mut self, to: Self, part: f64, wrap: f64) -> Self {
+        for (from, to) in self.iter_mut().zip(to) {
+            *from = from.toward(to, part, wrap);
+        }
+        self
     }
 }
 
@@ -427,8 +460,26 @@ macro_rules! fields {
                 })+
                 None
             }
+
+            /// Between two packets, `part` of the way from one to the other, for display only:
+            /// numbers that are counted are those of the nearer one.
+            #[must_use]
+            pub fn between(from: &Self, to: &Self, part: f64) -> Self {
+                let mut packet = if part < 0.5 { *from } else { *to };
+                $(packet.$float = from.$float.toward(to.$float, part, wrap(stringify!($float)));)+
+                packet
+            }
         }
     };
+}
+
+/// Where a field starts again; 0 where it does not.
+fn wrap(field: &str) -> f64 {
+    match field {
+        "psi_rad" | "phi_rad" => TAU,
+        "longitude_rad" => 360.0 / POSITION_DEG_PER_RAD,
+        _ => 0.0,
+    }
 }
 
 fields! {

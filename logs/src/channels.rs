@@ -13,8 +13,8 @@ use engine::inputs::DeviceEvent;
 use crate::cdr::append_view;
 use crate::devices;
 use crate::records::{
-    DEVICES, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, StateRecord,
-    TIMING, TimingRecord,
+    DEVICES, EVENTS, EventRecord, HARDWARE, INPUTS, InputsRecord, OUTPUTS, RESTART, RestartRecord,
+    STATE, StateRecord, TIMING, TimingRecord,
 };
 use crate::schema::{MessageType, Types, numbers};
 use crate::view::{self, Shape};
@@ -137,6 +137,8 @@ channels! {
     RobotDescription view::ROBOT_DESCRIPTION, |_| Ok(view::STRING_TYPE.into()), &[], Once, Outside, Kept;
     /// Input devices: which, and what they call themselves.
     Devices DEVICES, |_| Ok(devices::TYPE.into()), &[], OnEvent, Outside, Kept;
+    /// States that took the place of the one that was flown.
+    Restart RESTART, numbers::<RestartRecord>, &["cause", "state.tick"], OnEvent, Adds, Kept;
 }
 
 impl From<ChannelId> for &'static Channel {

@@ -75,6 +75,20 @@ pub enum LogError {
     /// A compacted log, where only the messages in the file are looked at.
     #[error("a compacted log; `tiltrotor log expand` makes the log of it that it was")]
     Compacted,
+    /// A compacted log, or one to be compacted, whose messages have other fields than today's.
+    #[error(
+        "compacted, its states could not be flown again: its {topic} has not the fields of today; the log is of format \
+         {format}, written by {program}, and this program's is {}; the program that wrote it compacts and expands it",
+        crate::records::FORMAT_VERSION
+    )]
+    Layout {
+        /// The first such channel.
+        topic: &'static str,
+        /// Format of the log.
+        format: String,
+        /// Who wrote it.
+        program: String,
+    },
     /// The files the flight was flown with.
     #[error("the log's {0}")]
     Setup(String),

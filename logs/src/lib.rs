@@ -34,4 +34,4 @@ pub use open::OpenOptions;
 pub use reader::{Ending, FlightReader, Message, Messages, Remade, Tick, closing, marker, open};
 pub use recover::{Recovery, recover};
 pub use setup::{Identity, Setup};
-pub use writer::{Closed, FlightWriter};
+pub use writer::{Closed, FlightWriter, Listener};

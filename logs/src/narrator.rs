@@ -12,7 +12,7 @@ use engine::units::{degrees, knots};
 
 pub use observed::Observed;
 
-use crate::records::{Happening, InputsRecord};
+use crate::records::{Happening, InputsRecord, RestartCause, RestartRecord};
 use crate::{FlightWriter, LogError};
 
 /// What was told last.
@@ -37,6 +37,25 @@ impl Narrator {
             validity: validity::Told::default(),
             wheels: wheels::Told::new(initial, airframe),
         }
+    }
+
+    /// What took the place of the state, after it was written.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn restart(
+        &mut self,
+        writer: &mut FlightWriter,
+        restart: &RestartRecord,
+    ) -> Result<(), LogError> {
+        let RestartRecord { cause, state } = restart;
+        // What is so from here on did not happen.
+        self.has_fuel = state.plant.fuel_kg > 0.0;
+        self.markers = state.cockpit.markers;
+        self.wheels.restart(state);
+        let known = RestartCause::from_u64(*cause);
+        let words = known.map_or("another state", |cause| cause.facts().words);
+        writer.happened(state.tick, Happening::Restarted, *cause, [0.0; 2], words)
     }
 
     /// A device event, after it was written.

@@ -2,20 +2,24 @@
 //!
 //! An [`Output`] is written beside its place, under a hidden name, and renamed over it once it is
 //! whole and on disk. Until then whatever stood there stands there; when anything fails, the hidden
-//! file goes away. A flight is different: its log has to be readable under its own name while it
-//! grows, so it takes its name with its first state, locked, and an older log of that name is set
-//! aside until the new one is closed. What is locked by a flight is never replaced.
+//! file goes away, and what a killed program left is removed by the next one that writes there. A
+//! flight is different: its log has to be readable under its own name while it grows, so it takes its
+//! name with its first state, locked, and an older log of that name is set aside until the new one is
+//! closed. What is locked by a flight is never replaced.
 //!
 //! Pipes, terminals and devices have no place to be renamed to: they are written as they are.
+
+pub(crate) mod hidden;
+mod same;
 
 use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
 use crate::LogError;
+use same::{followed, is_same};
 
 /// Attempts to take a name or a lock that others take and leave at the same time.
 const ATTEMPTS: u32 = 20;
@@ -66,10 +70,7 @@ impl Output {
     pub fn flight(path: &Path, force: bool) -> Result<Self, LogError> {
         refuse(path, force, &[])?;
         let old = hold(path, &followed(path))?;
-        let output = Self::begin(path, |hidden| Stage::Claimed { hidden, old })?;
-        // Where files cannot be locked, a flight flies all the same.
-        let _ = output.file.try_lock();
-        Ok(output)
+        Self::begin(path, |hidden| Stage::Claimed { hidden, old })
     }
 
     fn begin(path: &Path, stage: impl FnOnce(PathBuf) -> Stage) -> Result<Self, LogError> {
@@ -80,7 +81,7 @@ impl Output {
             let file = File::options().write(true).open(&target).map_err(failed)?;
             return Ok(Self { file, named, target, stage: Stage::Stream });
         }
-        let (hidden, file) = hidden_beside(&target).map_err(failed)?;
+        let (hidden, file) = hidden::file_beside(&target).map_err(failed)?;
         Ok(Self { file, named, target, stage: stage(hidden) })
     }
 
@@ -232,11 +233,6 @@ fn is_left_over(there: &Metadata) -> bool {
     there.is_file() && there.len() == 0
 }
 
-/// The file behind links; a link to nothing is itself.
-fn followed(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
-}
-
 /// Locks the file that is there, if one is and files can be locked.
 fn hold(named: &Path, target: &Path) -> Result<Option<File>, LogError> {
     if !fs::metadata(target).is_ok_and(|there| there.is_file()) {
@@ -255,34 +251,6 @@ fn hold(named: &Path, target: &Path) -> Result<Option<File>, LogError> {
     // Whoever replaced it before it was locked has the name now.
     let held = file.metadata().is_ok_and(|there| is_same(&there, target, target));
     if held { Ok(Some(file)) } else { Err(in_use()) }
-}
-
-/// Whether both are one file, under whatever names.
-#[cfg(unix)]
-fn is_same(one: &Metadata, _: &Path, other: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let id = |file: &Metadata| (file.dev(), file.ino());
-    fs::metadata(other).is_ok_and(|other| id(&other) == id(one))
-}
-
-/// Whether both are one file, as far as names tell.
-#[cfg(not(unix))]
-fn is_same(_: &Metadata, one: &Path, other: &Path) -> bool {
-    followed(one) == followed(other)
-}
-
-/// A new file in the target's folder that no program looks at.
-fn hidden_beside(target: &Path) -> io::Result<(PathBuf, File)> {
-    static NUMBER: AtomicU64 = AtomicU64::new(0);
-    loop {
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let name = format!(".tiltrotor-{}-{number}.unfinished", std::process::id());
-        let hidden = target.with_file_name(name);
-        match File::options().read(true).write(true).create_new(true).open(&hidden) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            file => return Ok((hidden, file?)),
-        }
-    }
 }
 
 /// Gives a file the name `target`, which nobody has.

@@ -10,10 +10,10 @@ pub use crate::container::time_ns;
 
 /// Version of the log's format: its records, channels and seals. The fields of a message are not part
 /// of it; each log names its own.
-pub const FORMAT_VERSION: &str = "3";
+pub const FORMAT_VERSION: &str = "4";
 /// The formats that are read. 1 had no seals, and at first no last word of the writer; 2 knew no devices,
-/// and two message types by one name.
-pub const FORMATS_READ: [&str; 3] = ["1", "2", FORMAT_VERSION];
+/// and two message types by one name; 3 knew no restarts.
+pub const FORMATS_READ: [&str; 4] = ["1", "2", "3", FORMAT_VERSION];
 
 /// Raw device events, one message each, in the order they were applied.
 pub const HARDWARE: &str = "/hardware";
@@ -29,6 +29,12 @@ pub const EVENTS: &str = "/events";
 pub const OUTPUTS: &str = "/outputs";
 /// Which input devices there were.
 pub const DEVICES: &str = "/devices";
+/// States that took the place of the one that was flown, before the step of their tick.
+pub const RESTART: &str = "/restart";
+
+/// Name of the metadata record with how the flight kept time, at the end of its log: counts, and for
+/// each kind of duration a histogram, as the greatest duration of each step in ns and how many there were.
+pub const TIMING_FACTS: &str = "tiltrotor_timing";
 
 /// The world during one tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,6 +59,50 @@ pub struct StateRecord {
 impl StateRecord {
     /// Place of the tick among the numbers.
     pub(crate) const TICK: usize = 1;
+}
+
+/// What is told of a [`RestartCause`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RestartFacts {
+    /// Its name; never changed.
+    pub key: &'static str,
+    /// What the crew did, in words.
+    pub words: &'static str,
+    /// Where the state came from.
+    pub description: &'static str,
+}
+
+engine::enumeration! {
+    /// Why a state took the place of the one that was flown.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[repr(u64)]
+    pub enum RestartCause tells RestartFacts {
+        /// The state with which the flight began.
+        Start = 1 { key: "start", words: "reset to the start" }
+        /// The state at the last marker.
+        Marker = 2 { key: "marker", words: "reset to the last marker" }
+        /// A start position chosen in flight.
+        Reposition = 3 { key: "reposition", words: "repositioned" }
+        /// A situation that was saved before.
+        Situation = 4 { key: "situation", words: "situation loaded" }
+    }
+}
+
+impl RestartCause {
+    /// The one recorded as `cause`, if it is one.
+    pub fn from_u64(cause: u64) -> Option<Self> {
+        Self::ALL.iter().copied().find(|&known| known as u64 == cause)
+    }
+}
+
+/// A state that takes the place of the one that was flown, before the step of its tick: the aircraft is
+/// somewhere else, time goes on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RestartRecord {
+    /// Why: one of [`RestartCause`].
+    pub cause: u64,
+    /// The state; its tick is the one before the step.
+    pub state: State,
 }
 
 /// How one tick kept time. All durations in ns, measured on the loop's thread.
@@ -217,6 +267,16 @@ engine::enumeration! {
         /// A pilot model gave up its task.
         GaveUp = 19 {
             key: "gave_up", value: "number of the phase", levels: Levels::always(Level::Warn),
+        }
+        /// Another state took the place of the one that was flown.
+        Restarted = 20 {
+            key: "restarted", value: "1 reset to the start, 2 to a marker, 3 repositioned, 4 situation loaded",
+            levels: Levels::always(Level::Info),
+        }
+        /// A situation was saved, to be loaded again.
+        SituationSaved = 21 {
+            key: "situation_saved", value: "its number in the flight, 0 when it could not be saved",
+            levels: Levels::with_zero(Level::Warn, Level::Info),
         }
     }
 }

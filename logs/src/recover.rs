@@ -1,30 +1,38 @@
 //! A proper file from a broken one: every tick up to the first bad one, and nothing after it.
 //!
 //! A tick is kept when its bytes passed their checksums *and* its digest follows from the first state
-//! on. Messages are copied as they stand; nothing is repaired, so nothing bad can come out good.
+//! on. Messages are copied as they stand; nothing is repaired, so nothing bad can come out good. What
+//! is drawn and exported of a tick is guarded by no digest: it is kept where the tick, flown again,
+//! gives the same bytes.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::LogError;
-use crate::channels::{Chain, Channel};
+use crate::channels::{Chain, Channel, ChannelId, Compacted};
+use crate::compact::{AircraftOf, Flier};
 use crate::open::OpenOptions;
 use crate::output::Output;
-use crate::reader::{Ending, FlightReader, Messages, open};
+use crate::reader::{Ending, FlightReader, Message, Messages, open};
 use crate::records::{STATE, time_ns};
-use crate::setup::Identity;
+use crate::setup::{Identity, Setup};
 use crate::writer::FlightWriter;
+use crate::{LogError, cdr};
 
 /// What was recovered, and what was not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Recovery {
+    /// First tick of the log.
+    pub first_tick: u64,
     /// Last tick that was kept.
     pub tick: u64,
     /// What is wrong right after it.
     pub reason: String,
     /// Ticks that can still be read after that, but not trusted.
     pub ticks_distrusted: u64,
-    /// Messages on channels that this program does not write: not copied.
+    /// Messages on channels that this program does not write, or of another definition: not copied.
     pub messages_foreign: u64,
+    /// Messages for viewers and tables that the kept ticks do not prove: not copied.
+    pub messages_unproven: u64,
     /// Size of the broken file.
     pub bytes_read: u64,
     /// Size of the new one.
@@ -42,15 +50,20 @@ impl Recovery {
     pub const IDENTITY: &'static str = "recovered_identity";
 }
 
-/// Writes what can be trusted of a broken log to `out`.
+/// Writes what can be trusted of a broken log, compacted or not; whoever asked for it proves and
+/// finishes the output. Of a compacted log it is a log with all its states.
 ///
 /// # Errors
-/// When not even the first state can be trusted, when the log is whole, or when `out` exists and
-/// `force` is not set, or cannot be written.
-pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogError> {
-    let output = Output::beside(out, force, &[broken])?;
-    let mut recovery = survey(broken)?;
-    let mut reader = open(broken, OpenOptions::default())?;
+/// When not even the first state can be trusted, when the log is whole, or when the new one cannot be
+/// written.
+pub fn recover(
+    broken: &Path,
+    output: &Output,
+    aircraft_of: AircraftOf,
+) -> Result<Recovery, LogError> {
+    let options = OpenOptions { aircraft_of: Some(aircraft_of), across_versions: false };
+    let mut recovery = survey(broken, options)?;
+    let mut reader = open(broken, options)?;
     let parent = name_of(broken, &reader);
     let mut identity = std::mem::take(&mut reader.identity);
     if let Some(oddity) = reader.oddity() {
@@ -61,15 +74,15 @@ pub fn recover(broken: &Path, out: &Path, force: bool) -> Result<Recovery, LogEr
         .with(Recovery::TICK, recovery.tick.to_string())
         .with(Recovery::REASON, &*recovery.reason);
     let mut writer = FlightWriter::begin(output.file()?, &reader.setup, &identity)?;
-    copy(broken, &mut writer, &mut recovery)?;
+    let witness = Witness::of(&reader.setup, aircraft_of)?;
+    copy(Messages::open(broken, options)?, &mut writer, witness, &mut recovery)?;
     recovery.bytes_written = writer.finish()?.bytes;
-    output.finish()?;
     Ok(recovery)
 }
 
 /// Finds the last tick that can be trusted.
-fn survey(broken: &Path) -> Result<Recovery, LogError> {
-    let mut reader = open(broken, OpenOptions::default())?;
+fn survey(broken: &Path, options: OpenOptions) -> Result<Recovery, LogError> {
+    let mut reader = open(broken, options)?;
     if !reader.intact {
         return Err(LogError::NotRecoverable(
             "its aircraft, cockpit map, scenario or first state is not what it was flown with: no \
@@ -77,11 +90,10 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
                 .into(),
         ));
     }
-    if !reader.differences().is_empty() {
-        return Err(LogError::NotRecoverable("its fields are not those of this version".into()));
-    }
+    let first_tick = reader.initial.tick;
     let mut recovery = Recovery {
-        tick: reader.initial.tick,
+        first_tick,
+        tick: first_tick,
         bytes_read: std::fs::metadata(broken).map_err(LogError::Open)?.len(),
         ..Recovery::default()
     };
@@ -111,15 +123,24 @@ fn survey(broken: &Path) -> Result<Recovery, LogError> {
             recovery.reason = bad;
         }
         if !more {
-            return Ok(recovery);
+            break;
         }
     }
+    let of_flight = |topic: &str| Channel::of(topic).is_some_and(|c| c.chain != Chain::Outside);
+    if reader.differences().iter().any(|(topic, _)| of_flight(topic)) {
+        return Err(LogError::NotRecoverable("its fields are not those of this version".into()));
+    }
+    Ok(recovery)
 }
 
 /// Copies the messages up to the state of the last good tick, and what belongs to those ticks.
-fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Result<(), LogError> {
+fn copy(
+    mut messages: Messages,
+    writer: &mut FlightWriter,
+    mut witness: Witness,
+    recovery: &mut Recovery,
+) -> Result<(), LogError> {
     let mut copied = None;
-    let mut messages = Messages::open(broken, OpenOptions::default())?;
     while let Some(message) = messages.next_message() {
         let flown = Channel::of(message.topic()).is_some_and(|c| c.chain != Chain::Outside);
         if flown && copied == Some(recovery.tick) {
@@ -127,6 +148,14 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
         }
         if !flown && message.time_ns > time_ns(recovery.tick) {
             // Viewers' channels may be a few ticks ahead.
+            continue;
+        }
+        if !flown && !message.is_todays() {
+            recovery.messages_foreign += 1;
+            continue;
+        }
+        if !witness.confirms(message)? {
+            recovery.messages_unproven += 1;
             continue;
         }
         if !writer.copy(message)? {
@@ -138,6 +167,62 @@ fn copy(broken: &Path, writer: &mut FlightWriter, recovery: &mut Recovery) -> Re
     }
     let changed = || LogError::Order("the file changed while it was being read".into());
     (copied == Some(recovery.tick)).then_some(()).ok_or_else(changed)
+}
+
+/// Flies the kept ticks again, beside the messages that are made of them.
+struct Witness {
+    flier: Flier,
+    /// The first state has come.
+    begun: bool,
+    /// Every tick so far was the recorded one.
+    together: bool,
+    /// A message as it was made again.
+    again: Vec<u8>,
+    /// Ticks of the last messages that were made of them, by channel: none comes twice.
+    last: BTreeMap<ChannelId, u64>,
+}
+
+impl Witness {
+    fn of(setup: &Setup, aircraft_of: AircraftOf) -> Result<Self, LogError> {
+        let flier = Flier::new(aircraft_of(setup)?);
+        Ok(Self { flier, begun: false, together: true, again: Vec::new(), last: BTreeMap::new() })
+    }
+
+    /// Whether nothing speaks against a message. Where this program does not fly the recorded flight,
+    /// it cannot speak.
+    fn confirms(&mut self, message: &Message) -> Result<bool, LogError> {
+        let Some(channel) = message.channel().filter(|_| self.together) else { return Ok(true) };
+        match channel.compacted {
+            Compacted::Rows => self.flier.takes(channel.id, &message.data)?,
+            Compacted::Reflown => self.state(message)?,
+            Compacted::Remade => {
+                self.again.clear();
+                let tick = message.time_ns / engine::STEP_NS;
+                let next = self.last.get(&channel.id).is_none_or(|&last| last < tick);
+                let made = self.flier.view(&mut self.again, channel, tick)?;
+                let same = made && self.again == message.data && message.is_stamped(tick);
+                if next && same {
+                    self.last.insert(channel.id, tick);
+                }
+                return Ok(next && same);
+            }
+            Compacted::Kept => {}
+        }
+        Ok(true)
+    }
+
+    fn state(&mut self, message: &Message) -> Result<(), LogError> {
+        let record: crate::records::StateRecord = cdr::decode(&message.data)?;
+        if !std::mem::replace(&mut self.begun, true) {
+            self.flier.begin(record.state);
+            return Ok(());
+        }
+        self.flier.fly();
+        self.again.clear();
+        self.flier.state_message(&mut self.again, record.digest)?;
+        self.together = self.again == message.data;
+        Ok(())
+    }
 }
 
 /// The name of the file; for one that was recovered before, the names of all of them.

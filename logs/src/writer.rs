@@ -18,13 +18,14 @@ use crate::container::{RECORD_BYTES_MAX, stamped};
 use crate::devices::DeviceIdentity;
 use crate::reader::Message;
 use crate::records::{
-    Chain, EventRecord, Happening, InputsRecord, StateRecord, TimingRecord, first_digest,
+    Chain, EventRecord, Happening, InputsRecord, RestartRecord, StateRecord, TimingRecord,
+    first_digest,
 };
 use crate::schema::{self, MessageType};
 use crate::setup::{
     CLOSING, CLOSING_DIGEST, CLOSING_MESSAGES, CLOSING_TICK, Identity, METADATA, Setup,
 };
-use crate::view;
+use crate::view::{self, Level};
 use crate::{LogError, cdr};
 
 /// Uncompressed size at which a chunk is closed; the caller's timer closes most of them earlier.
@@ -44,7 +45,12 @@ pub struct FlightWriter {
     last_tick: u64,
     message: Vec<u8>,
     shape: view::Shape,
+    /// Hears what is told in words.
+    listener: Option<Listener>,
 }
+
+/// Hears what is told in words: tick, level, words.
+pub type Listener = Box<dyn FnMut(u64, Level, &str) + Send>;
 
 /// How a log ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,7 +133,16 @@ impl FlightWriter {
             last_tick: 0,
             message: Vec::with_capacity(8192),
             shape: view::Shape::default(),
+            listener: None,
         })
+    }
+
+    /// The state with which the tick under way begins in place of the last one; the tick's first message.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn restart(&mut self, restart: &RestartRecord) -> Result<(), LogError> {
+        self.record(ChannelId::Restart, restart.state.tick, restart)
     }
 
     /// A device event of the tick under way.
@@ -172,7 +187,8 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn device(&mut self, device: &DeviceIdentity) -> Result<(), LogError> {
         let message = device.encode()?;
-        self.put(ChannelId::Devices, device.tick, &message)
+        // One that was there before this log begins is told at its beginning: times never go back.
+        self.put(ChannelId::Devices, device.tick.max(self.last_tick), &message)
     }
 
     /// Something that happened, as a record and in words.
@@ -188,12 +204,31 @@ impl FlightWriter {
         words: &str,
     ) -> Result<(), LogError> {
         let level = what.facts().levels.of(value);
+        if let Some(listener) = &mut self.listener {
+            listener(tick, level, words);
+        }
         let record = EventRecord { tick, kind: what as u64, value, measured };
         // What is found out later is told later: log times never go back.
         let told_tick = tick.max(self.last_tick);
         self.record(ChannelId::Events, told_tick, &record)?;
         let message = cdr::encode_view(&view::log(tick, level, words))?;
         self.put(ChannelId::Log, told_tick, &message)
+    }
+
+    /// Lets somebody hear what is told in words from now on.
+    pub fn tell(&mut self, listener: Listener) {
+        self.listener = Some(listener);
+    }
+
+    /// Facts that no flight depends on, under a name of their own; for the end of the log.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn facts(&mut self, name: &str, facts: &BTreeMap<String, String>) -> Result<(), LogError> {
+        let mut metadata = facts.clone();
+        seal(&mut metadata);
+        let record = mcap::records::Metadata { name: name.into(), metadata };
+        Ok(self.mcap.write_metadata(&record)?)
     }
 
     /// A message of another log as it stands there; `false` when no channel of ours is called so.

@@ -1,28 +1,39 @@
 //! Keeping time: a tick every 4 ms by the monotonic clock, as punctually as the system allows.
 
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use engine::STEP_NS;
-use rustix::thread::{ClockId as SleepClock, clock_nanosleep_absolute};
-use rustix::time::{ClockId, Timespec, clock_gettime};
+
+pub(crate) use crate::platform::now_ns;
+use crate::platform::sleep_until;
 
 /// Sleeps until this long before a tick is due, and spins for the rest.
 const SPIN_NS: u64 = 200_000;
 
-/// Monotonic time, ns.
-pub fn now_ns() -> u64 {
-    let now = clock_gettime(ClockId::Monotonic);
-    now.tv_sec.cast_unsigned() * 1_000_000_000 + now.tv_nsec.cast_unsigned()
-}
-
 /// Wall clock, ns since the Unix epoch.
 pub fn wall_ns() -> u64 {
-    let now = clock_gettime(ClockId::Realtime);
-    now.tv_sec.cast_unsigned() * 1_000_000_000 + now.tv_nsec.cast_unsigned()
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    u64::try_from(since.as_nanos()).unwrap_or(u64::MAX)
 }
 
 /// Later than this, and the clock is anchored anew, ns: nothing is flown in a burst on stale hands.
 pub const SLIP_LIMIT_NS: u64 = 100_000_000;
+
+/// How a flight keeps time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RealTime {
+    /// Later than this, and the clock is anchored anew, ns.
+    pub slip_limit_ns: u64,
+    /// The processor on which the loop stays; wherever the system puts it without.
+    pub cpu: Option<usize>,
+}
+
+impl Default for RealTime {
+    fn default() -> Self {
+        Self { slip_limit_ns: SLIP_LIMIT_NS, cpu: None }
+    }
+}
 
 /// When the ticks are due.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +55,12 @@ pub struct Woken {
 impl Pace {
     /// Real time; tick 0 is due now.
     pub fn starting_now() -> Self {
-        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns: SLIP_LIMIT_NS }
+        Self::with_slip_limit(SLIP_LIMIT_NS)
+    }
+
+    /// The same with another limit of a slip.
+    pub fn with_slip_limit(slip_limit_ns: u64) -> Self {
+        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns }
     }
 
     /// So many times faster than real time; tick 0 is due now.
@@ -63,12 +79,8 @@ impl Pace {
         let due_ns = self.due_ns(tick);
         let sleep_ns = due_ns.saturating_sub(SPIN_NS);
         if now_ns() < sleep_ns {
-            let until = Timespec {
-                tv_sec: (sleep_ns / 1_000_000_000).cast_signed(),
-                tv_nsec: (sleep_ns % 1_000_000_000).cast_signed(),
-            };
             // Woken early by a signal: the spin takes the rest, and the loop looks at its flag.
-            let _ = clock_nanosleep_absolute(SleepClock::Monotonic, &until);
+            sleep_until(sleep_ns);
         }
         loop {
             let at_ns = now_ns();
@@ -109,38 +121,6 @@ impl Awake {
     pub fn ns(&self) -> u64 {
         self.awake_ns.load(Ordering::Relaxed)
     }
-}
-
-/// Asks for real-time scheduling of this thread and memory that is never paged out; returns what was
-/// not granted, in words.
-pub fn claim_real_time() -> Vec<String> {
-    use thread_priority::unix::{
-        RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy,
-        thread_native_id,
-    };
-    use thread_priority::{ThreadPriority, ThreadPriorityValue};
-
-    let mut refused = Vec::new();
-    let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
-    let priority = ThreadPriorityValue::try_from(40_u8).map(ThreadPriority::Crossplatform);
-    let scheduled = priority.is_ok_and(|priority| {
-        set_thread_priority_and_policy(thread_native_id(), priority, fifo).is_ok()
-    });
-    if !scheduled {
-        refused.push(
-            "no real-time scheduling (SCHED_FIFO): expect late ticks under load; \
-             `ulimit -r 40` or CAP_SYS_NICE grants it"
-                .to_string(),
-        );
-    }
-    let all = rustix::mm::MlockAllFlags::CURRENT | rustix::mm::MlockAllFlags::FUTURE;
-    if rustix::mm::mlockall(all).is_err() {
-        refused.push(
-            "memory not locked: a page fault may delay a tick; `ulimit -l unlimited` grants it"
-                .to_string(),
-        );
-    }
-    refused
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use engine::Outputs;
 use engine::inputs::{DeviceEvent, World};
 
 use crate::hands::{GaveUp, Hands, Reach};
+use crate::restart::Restart;
 
 /// All hands, and what they hold on to between ticks.
 pub(crate) struct Crew {
@@ -12,12 +13,22 @@ pub(crate) struct Crew {
     pub(crate) phase: (u64, &'static str),
     pub(crate) done: bool,
     pub(crate) gave_up: Option<GaveUp>,
+    /// From where to go on; taken by whoever flies.
+    pub(crate) restart: Option<Restart>,
+    /// Whether to save the situation; the same.
+    pub(crate) save: bool,
 }
 
 impl Crew {
     /// Hands that have touched nothing yet.
     pub(crate) fn new(hands: Vec<Box<dyn Hands>>, world: World) -> Self {
-        Self { hands, world, phase: (0, ""), done: false, gave_up: None }
+        let (phase, done, gave_up) = ((0, ""), false, None);
+        Self { hands, world, phase, done, gave_up, restart: None, save: false }
+    }
+
+    /// How many events they send in one tick at most.
+    pub(crate) fn events_a_tick(&self) -> usize {
+        self.hands.iter().map(|hand| hand.events_a_tick()).sum()
     }
 
     /// Lets every hand act; returns the phase if it changed.
@@ -38,6 +49,8 @@ impl Crew {
                     phase: &mut self.phase,
                     done: &mut self.done,
                     gave_up: &mut self.gave_up,
+                    restart: &mut self.restart,
+                    save: &mut self.save,
                 },
             );
         }

@@ -81,7 +81,7 @@ impl Devices {
         let stopping = Arc::clone(&stop);
         // What reads lives and dies on the thread that reads it.
         let thread = thread::spawn(move || {
-            let refused = claim_priority();
+            let refused = system::claim_priority();
             if let Some(reader) = begin(stream, &taken, &others) {
                 let _ = tell.send(refused);
                 reader.run(&stopping);
@@ -95,44 +95,14 @@ impl Devices {
         Self { events, stop, thread: Some(thread), found, later: Some(later), refused }
     }
 
-    /// Takes what came in since the tick before.
-    pub fn take(&mut self, tick: u64, events: &mut Vec<DeviceEvent>) {
-        while let Ok(event) = self.events.pop() {
+    /// Takes what came in since the tick before, so many events at most: what is left comes in the next
+    /// tick, in its order.
+    pub fn take(&mut self, tick: u64, events: &mut Vec<DeviceEvent>, most: usize) {
+        for _ in 0..most {
+            let Ok(event) = self.events.pop() else { return };
             events.push(DeviceEvent { tick, ..event });
         }
     }
-}
-
-/// Asks for real-time scheduling of this thread, one above the loop's, so that an event waits for nobody;
-/// returns what was not granted, in words.
-#[cfg(target_os = "linux")]
-fn claim_priority() -> Vec<String> {
-    use thread_priority::unix::{
-        RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy,
-        thread_native_id,
-    };
-    use thread_priority::{ThreadPriority, ThreadPriorityValue};
-
-    /// The loop has 40.
-    const PRIORITY: u8 = 41;
-    let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
-    let granted = ThreadPriorityValue::try_from(PRIORITY).is_ok_and(|priority| {
-        let priority = ThreadPriority::Crossplatform(priority);
-        set_thread_priority_and_policy(thread_native_id(), priority, fifo).is_ok()
-    });
-    if granted {
-        return Vec::new();
-    }
-    vec![format!(
-        "no real-time scheduling (SCHED_FIFO) of the input thread: events may wait under load; \
-         `ulimit -r {PRIORITY}` or CAP_SYS_NICE grants it"
-    )]
-}
-
-/// Other systems read their devices in their own time.
-#[cfg(not(target_os = "linux"))]
-fn claim_priority() -> Vec<String> {
-    Vec::new()
 }
 
 #[cfg(target_os = "linux")]

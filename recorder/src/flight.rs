@@ -7,7 +7,9 @@ use engine::start::Start;
 use flightgear::Link;
 use logs::{Identity, LogError, Setup};
 
+use crate::clock::RealTime;
 use crate::hands::Hands;
+use crate::restart::Situation;
 
 /// A flight to be flown.
 pub struct Flight {
@@ -30,8 +32,10 @@ pub struct Flight {
     pub out: PathBuf,
     /// Whether an existing log may be overwritten.
     pub force: bool,
-    /// Real time; without it, as fast as it goes.
-    pub real_time: bool,
+    /// How it keeps real time; without it, as fast as it goes.
+    pub real_time: Option<RealTime>,
+    /// What it begins with in place of its start.
+    pub situation: Option<Situation>,
     /// Ticks after which the flight ends by itself.
     pub ticks_max: Option<u64>,
     /// FlightGear.
@@ -83,7 +87,8 @@ mod tests {
             sticks: None,
             out: out.clone(),
             force: true,
-            real_time: false,
+            real_time: None,
+            situation: None,
             ticks_max: Some(500),
             link: None,
             self_check: true,

@@ -4,6 +4,8 @@
 use engine::Outputs;
 use engine::inputs::{DeviceEvent, EventKind, World};
 
+use crate::restart::Restart;
+
 /// What hands may touch in one tick.
 pub struct Reach<'a> {
     /// Tick whose step uses it.
@@ -16,7 +18,11 @@ pub struct Reach<'a> {
     pub phase: &'a mut (u64, &'static str),
     /// Set to end the flight.
     pub done: &'a mut bool,
-    /// Set with it by a pilot model whose task cannot be flown to its end.
+    /// Set to go on from another state, before the step of this tick.
+    pub restart: &'a mut Option<Restart>,
+    /// Set to save the situation as it is before the step of this tick.
+    pub save: &'a mut bool,
+    /// Set with `done` by a pilot model whose task cannot be flown to its end.
     pub gave_up: &'a mut Option<GaveUp>,
 }
 
@@ -56,4 +62,9 @@ impl Reach<'_> {
 pub trait Hands: Send {
     /// What it does in this tick, having seen the aircraft after the one before.
     fn act(&mut self, seen: &Outputs, reach: &mut Reach<'_>);
+
+    /// How many events it sends in one tick at most: room is made for them before the flight.
+    fn events_a_tick(&self) -> usize {
+        64
+    }
 }

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use engine::Outputs;
+use flightgear::{Hold, Sent};
 use logs::{Closed, LogError};
 
+use crate::debrief::Debrief;
 use crate::end::End;
 use crate::self_check::Checked;
 use crate::statistics::Statistics;
@@ -15,6 +17,8 @@ use crate::writer::Delay;
 pub struct Landing {
     /// How it kept time.
     pub statistics: Statistics,
+    /// What the pilot hears of it.
+    pub debrief: Debrief,
     /// The log, or why it ends early.
     pub log: Result<Closed, LogError>,
     /// An older log of the same name, when this one could not take its place.
@@ -23,10 +27,11 @@ pub struct Landing {
     pub outputs: Outputs,
     /// Device events taken.
     pub events: u64,
-    /// Pictures sent to FlightGear.
-    pub sent: u64,
-    /// Pictures that could not be sent.
-    pub unsent: u64,
+    /// Pictures sent to each FlightGear.
+    pub pictures: Vec<Sent>,
+    /// Goes on sending the last one, until it is stopped or dropped; `None` when there is no FlightGear,
+    /// or nobody listens.
+    pub hold: Option<Hold>,
     /// Most entries that ever waited for the writer.
     pub backlog_max: usize,
     /// How the writer was held up.

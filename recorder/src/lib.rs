@@ -5,30 +5,38 @@
 //! FlightGear. The loop waits for nothing but time.
 
 mod clock;
+mod clock_check;
 mod crew;
+pub mod debrief;
 #[cfg(feature = "sticks")]
 pub mod devices;
 mod end;
 mod flight;
 mod hands;
+pub mod keyboard;
 mod landing;
 mod live;
 pub mod pilots;
-pub mod pipe;
+mod platform;
 mod progress;
 mod rehearsal;
+mod restart;
 pub mod script;
 mod self_check;
+pub mod situation;
 pub mod statistics;
 pub mod writer;
 
-pub use clock::{Pace, Woken};
+pub use clock::{Pace, RealTime, Woken};
+pub use clock_check::{ClockCheck, check_clock};
 pub use end::End;
 pub use flight::{Flight, FlyError};
 pub use hands::{GaveUp, Hands, Reach};
 pub use landing::Landing;
 pub use live::fly;
-pub use progress::{Progress, Snapshot};
+pub use platform::open_pipe;
+pub use progress::{Progress, Shown, Snapshot, Told};
 pub use rehearsal::{RehearsedTick, rehearse};
+pub use restart::{Restart, Situation};
 pub use self_check::{Checked, Mismatch};
 pub use writer::Delay;

@@ -8,27 +8,33 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
 
-use engine::inputs::DeviceEvent;
+use engine::controls::PickUp;
+use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
-use flightgear::Link;
+use flightgear::{Lamps, Link, Picture, Recording as Lamp, Scene};
 #[cfg(feature = "sticks")]
 use logs::devices::DeviceIdentity;
 use logs::output::Output;
-use logs::records::{InputsRecord, TimingRecord};
+use logs::records::{InputsRecord, RestartRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Observed};
 
-use crate::clock::{Pace, Woken, claim_real_time, now_ns, wall_ns};
+use crate::clock::{Pace, Woken, now_ns, wall_ns};
 use crate::crew::Crew;
+use crate::debrief::Debrief;
 use crate::end::End;
 use crate::flight::{Flight, FlyError};
 use crate::landing::Landing;
-use crate::progress::Progress;
+use crate::platform::claim_real_time;
+use crate::progress::{Progress, Shown, Told};
+use crate::restart::{Restarts, Situation};
 use crate::self_check::SelfCheck;
 use crate::statistics::Statistics;
-use crate::writer::{Recording, ToRecord};
+use crate::writer::{Recording, Saver, ToRecord};
 
-/// Device events handled in one tick without asking for memory.
+/// Device events taken in one tick; those beyond come in the next.
 const EVENTS_A_TICK: usize = 1024;
+/// Ticks between two looks at everything for whoever shows it: 25 a second.
+const SHOWN_TICKS: u64 = 10;
 
 /// Number and name of a phase of the flight.
 type Phase = (u64, &'static str);
@@ -52,6 +58,9 @@ pub(crate) struct Live<'a, S> {
     crew: Crew,
     #[cfg(feature = "sticks")]
     sticks: Option<crate::devices::Devices>,
+    restarts: Restarts,
+    /// What the tick under way begins with in place of the state before it.
+    restarted: Option<RestartRecord>,
     /// Of the tick under way.
     events: Vec<DeviceEvent>,
     events_taken: u64,
@@ -60,13 +69,35 @@ pub(crate) struct Live<'a, S> {
     output: Output,
     self_check: Option<SelfCheck>,
     link: Option<Link>,
+    /// Not before then is another picture sent when it flies as fast as it goes.
+    next_picture_ns: u64,
     /// Real time; `None` flies as fast as it goes.
     pace: Option<Pace>,
     ticks_max: Option<u64>,
     progress: &'a Progress,
     statistics: Statistics,
+    debrief: Debrief,
+    shown: Shown,
+    /// By the wall clock: device events from before it are not of this flight.
+    begun_wall_ns: u64,
     /// What the system did not grant.
     refused: Vec<String>,
+}
+
+/// The state and the world of a flight that begins with a situation: at tick 0, with no marker pressed.
+fn begun_with(situation: &Situation) -> (State, World) {
+    let Situation { mut state, mut world } = *situation;
+    match world.gust_start_tick.checked_sub(state.tick) {
+        Some(start_tick) => world.gust_start_tick = start_tick,
+        // It began before the flight does: what is left of one cannot be had.
+        None => world.gust_s = 0.0,
+    }
+    state.tick = 0;
+    state.cockpit.markers = 0;
+    // Hardware tells where it stands, and that is not where it stood.
+    state.cockpit.pick_up = PickUp::default();
+    state.cockpit.force_trim.released = 0;
+    (state, world)
 }
 
 /// When the parts of a tick were done.
@@ -95,11 +126,13 @@ where
         step: S,
     ) -> Result<Self, FlyError> {
         let aircraft = flight.aircraft;
-        let state = analysis::start::state_at(&flight.start, &aircraft)?;
         let world = flight.start.world.world();
+        let (state, world_of_start) = match &flight.situation {
+            Some(situation) => begun_with(situation),
+            None => (analysis::start::state_at(&flight.start, &aircraft)?, world),
+        };
         let identity = flight.identity.with(Identity::STARTED, wall_ns().to_string());
         let mut output = Output::flight(&flight.out, flight.force)?;
-        #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to tell of"))]
         let mut writer = FlightWriter::create(
             output.file()?,
             &flight.setup,
@@ -113,40 +146,56 @@ where
             writer.device(&DeviceIdentity { tick: state.tick, ..device.clone() })?;
         }
         output.begun()?;
+        let (say, said) = mpsc::channel();
+        writer.tell(Box::new(move |tick, level, words| {
+            // Nobody may listen.
+            let _ = say.send(Told { tick, level, words: words.into() });
+        }));
+        progress.listen(said);
         let (tell, told) = mpsc::channel();
         #[cfg(feature = "sticks")]
         let later = flight.sticks.as_mut().and_then(|sticks| sticks.later.take());
         #[cfg(not(feature = "sticks"))]
         let later = None;
-        let mut recording = Recording::start(writer, &aircraft, &state, told, later);
+        let saver = Saver::beside(&flight.out, &aircraft.name);
+        let mut recording = Recording::start(writer, &aircraft, &state, told, saver, later);
         let found = Arc::clone(&progress.mismatches);
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
         // After the other threads have begun: what is claimed is for the loop.
-        let mut refused = if flight.real_time { claim_real_time() } else { Vec::new() };
+        let mut refused =
+            flight.real_time.map_or_else(Vec::new, |wanted| claim_real_time(wanted.cpu));
         #[cfg(feature = "sticks")]
         refused.extend(flight.sticks.iter_mut().flat_map(|sticks| sticks.refused.drain(..)));
         let outputs = observe(&aircraft, &state, &world);
         recording.show(&outputs, state.plant.attitude);
+        let crew = Crew::new(flight.hands, world_of_start);
+        let pace = flight.real_time.map(|wanted| Pace::with_slip_limit(wanted.slip_limit_ns));
         Ok(Self {
             step,
             aircraft,
             state,
             outputs,
-            crew: Crew::new(flight.hands, world),
+            restarts: Restarts::new(Situation { state, world: world_of_start }),
+            restarted: None,
+            events: Vec::with_capacity(EVENTS_A_TICK + crew.events_a_tick()),
+            crew,
             #[cfg(feature = "sticks")]
             sticks: flight.sticks,
-            events: Vec::with_capacity(EVENTS_A_TICK),
             events_taken: 0,
             recording,
             output,
             self_check,
             link: flight.link,
+            next_picture_ns: 0,
             ticks_max: flight.ticks_max,
             progress,
             statistics: Statistics::new(),
+            debrief: Debrief::default(),
+            shown: Shown::default(),
+            begun_wall_ns: wall_ns(),
             refused,
-            pace: flight.real_time.then(Pace::starting_now),
+            pace,
         })
     }
 
@@ -213,22 +262,42 @@ where
         self.events.clear();
         #[cfg(feature = "sticks")]
         if let Some(sticks) = &mut self.sticks {
-            sticks.take(tick, &mut self.events);
+            sticks.take(tick, &mut self.events, EVENTS_A_TICK);
             self.progress.devices(&self.events);
         }
         let phase = self.crew.act(tick, &self.outputs, &mut self.events);
         self.events_taken += self.events.len() as u64;
+        self.restarted = self.restart();
         phase
+    }
+
+    /// Goes on from another state if the crew wants it.
+    fn restart(&mut self) -> Option<RestartRecord> {
+        let restart = self.crew.restart.take()?;
+        let made =
+            self.restarts.made(&restart, &self.aircraft.cockpit, &self.state, &self.crew.world);
+        let (record, world) = made?;
+        self.state = record.state;
+        self.crew.world = world;
+        self.debrief.restart();
+        Some(record)
     }
 
     /// Hands the inputs over to the writer, before the step that uses them.
     fn record(&mut self, tick: u64, phase: Option<Phase>, slip_ns: u64) {
+        if let Some(restarted) = self.restarted {
+            self.recording.put(ToRecord::Restart(restarted));
+        }
         for event in &self.events {
             self.recording.put(ToRecord::Event(*event));
         }
         let events = self.events.len() as u64;
         let inputs = InputsRecord { tick, events, world: self.crew.world };
         self.recording.put(ToRecord::Inputs(inputs));
+        if std::mem::take(&mut self.crew.save) {
+            self.restarts.saved(Situation { state: self.state, world: self.crew.world });
+            self.recording.put(ToRecord::Save(self.state));
+        }
         if let Some((number, name)) = phase {
             self.recording.put(ToRecord::Phase(tick, number, name));
         }
@@ -240,72 +309,128 @@ where
 
     fn advance(&mut self) {
         let inputs = Inputs { events: &self.events, world: self.crew.world };
+        let markers = self.state.cockpit.markers;
         (self.state, self.outputs) = (self.step)(&self.aircraft, &self.state, &inputs);
+        self.restarts.look(markers, &self.state, &self.crew.world);
+        self.debrief.add(&self.aircraft.envelope, &self.outputs);
     }
 
     /// Sends the picture, then hands the state over to the other threads; returns when the picture was
     /// on its way.
     fn publish(&mut self) -> u64 {
-        if let Some(link) = &mut self.link {
-            link.send(&self.outputs);
+        if self.pace.is_some() || now_ns() >= self.next_picture_ns {
+            self.show();
         }
         let sent_ns = now_ns();
         self.recording.put(ToRecord::State(self.state, Observed::of(&self.outputs)));
         self.recording.show(&self.outputs, self.state.plant.attitude);
         if let Some(check) = &mut self.self_check {
-            check.put(&self.events, self.crew.world, &self.state);
+            let restart = self.restarted.as_ref().map(|restarted| &restarted.state);
+            check.put(restart, &self.events, self.crew.world, &self.state);
         }
         sent_ns
+    }
+
+    /// Sends the picture. As fast as it goes there would be thousands a second, which nobody sees.
+    fn show(&mut self) {
+        self.next_picture_ns = now_ns() + STEP_NS;
+        let picture = self.picture();
+        if let (Some(link), Some(picture)) = (&mut self.link, picture) {
+            link.send(&picture);
+        }
+    }
+
+    /// What FlightGear is to show; `None` when there is none.
+    fn picture(&self) -> Option<Picture> {
+        self.link.as_ref()?;
+        let recording = if self.recording.has_failed() { Lamp::Failed } else { Lamp::On };
+        Some(Picture::of(&Scene {
+            aircraft: &self.aircraft,
+            outputs: &self.outputs,
+            world: &self.crew.world,
+            lamps: Lamps { recording, ..Lamps::default() },
+        }))
     }
 
     /// Notes how the tick kept time, in the log and for whoever looks on.
     fn account(&mut self, tick: u64, times: &Times) {
         let due_ns = self.pace.as_ref().map(|pace| pace.due_ns(tick));
         let sent_ns = times.sent_ns - times.woke_ns;
-        // Synthetic events have no time of the kernel's.
-        let kernel_ns = self.events.iter().map(|event| event.kernel_time_ns).filter(|&ns| ns > 0);
-        let stamped_events = kernel_ns.clone().count() as u64;
+        let sent_wall_ns = times.wall_ns + sent_ns;
+        let (stamped, implausible, oldest_ns) = self.latencies(sent_wall_ns);
         let timing = TimingRecord {
             tick,
             wall_ns: times.wall_ns,
             late_ns: due_ns.map_or(0, |due_ns| times.woke_ns.saturating_sub(due_ns)),
             step_ns: times.stepped_ns - times.recorded_ns,
             sent_ns,
-            latency_ns: kernel_ns
-                .min()
-                .map_or(0, |oldest_ns| (times.wall_ns + sent_ns).saturating_sub(oldest_ns)),
+            latency_ns: oldest_ns.map_or(0, |oldest_ns| sent_wall_ns - oldest_ns),
             record_ns: (times.recorded_ns - times.sampled_ns) + (times.handed_ns - times.sent_ns),
             slip_ns: times.slip_ns,
             overrun: u64::from(due_ns.is_some_and(|due_ns| times.handed_ns > due_ns + STEP_NS)),
-            stamped_events,
-            implausible_events: 0,
+            stamped_events: stamped,
+            implausible_events: implausible,
         };
         self.recording.put(ToRecord::Timing(timing));
         self.statistics.add(&timing);
         let (overruns, failed) = (self.statistics.overruns, self.recording.has_failed());
         self.progress.show(&self.outputs, self.crew.phase.0, overruns, failed);
+        self.shown.add(&timing);
+        if tick.is_multiple_of(SHOWN_TICKS) {
+            self.shown.of(&self.outputs, &self.crew.world, &self.debrief);
+            self.progress.show_all(&self.shown);
+        }
+    }
+
+    /// Adds the latency of every event of the tick that the kernel stamped: how many did, how many of
+    /// these at a time that cannot be, and the oldest of the others.
+    fn latencies(&mut self, sent_wall_ns: u64) -> (u64, u64, Option<u64>) {
+        let (mut stamped, mut implausible, mut oldest_ns) = (0, 0, None);
+        for event in &self.events {
+            let kernel_ns = event.kernel_time_ns;
+            match sent_wall_ns.checked_sub(kernel_ns) {
+                _ if kernel_ns == 0 => {
+                    self.statistics.synthetic_events += 1;
+                    continue;
+                }
+                Some(latency_ns) if kernel_ns >= self.begun_wall_ns => {
+                    self.statistics.latency.add(latency_ns);
+                    oldest_ns = Some(oldest_ns.map_or(kernel_ns, |o: u64| o.min(kernel_ns)));
+                }
+                _ => implausible += 1,
+            }
+            stamped += 1;
+        }
+        (stamped, implausible, oldest_ns)
     }
 
     /// Ends the log and the threads beside the loop.
     fn land(mut self, end: End) -> Landing {
         self.recording.put(ToRecord::Landed(self.state.tick, end));
+        // From here on, while the log is being closed, too.
+        let last = self.picture();
+        let pictures = self.link.as_ref().map(Link::sent).unwrap_or_default();
+        let hold = self
+            .link
+            .filter(|link| !link.nobody_listens())
+            .zip(last)
+            .map(|(link, last)| link.hold(last));
         let backlog_max = self.recording.backlog_max;
         // Before the log is closed: what it finds last is told there, too.
         let checked = self.self_check.map(SelfCheck::finish);
-        let (sent, unsent) =
-            self.link.as_ref().map_or((0, 0), |link| (link.sent(), link.dropped()));
-        let (log, delay) = self.recording.finish();
+        let (log, delay) = self.recording.finish(self.statistics.facts());
         let set_aside = self.output.set_aside().map(Path::to_path_buf);
         let log = log.and_then(|closed| self.output.finish().map(|()| closed));
         let set_aside = set_aside.filter(|_| log.is_err());
         Landing {
             statistics: self.statistics,
+            debrief: self.debrief,
             log,
             set_aside,
             outputs: self.outputs,
             events: self.events_taken,
-            sent,
-            unsent,
+            pictures,
+            hold,
             backlog_max,
             delay,
             checked,

@@ -1,17 +1,74 @@
 //! Where a flight is while it is flown, for whoever shows it, and the word that it should end.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::mpsc::Receiver;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use engine::Outputs;
 use engine::cockpit::{self, Waiting};
-use engine::inputs::{DeviceEvent, EventKind};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+use engine::inputs::{DeviceEvent, EventKind, World};
+use logs::records::TimingRecord;
+use logs::view::Level;
 
-/// Signals that end a flight in an orderly way, and what they are called. After SIGXFSZ the log cannot
-/// grow any further; what is in it stays.
-const ENDING: [(i32, &str); 4] =
-    [(SIGINT, "SIGINT"), (SIGTERM, "SIGTERM"), (SIGHUP, "SIGHUP"), (SIGXFSZ, "SIGXFSZ")];
+use crate::debrief::Debrief;
+use crate::platform::{ENDING, is_ignored};
+
+/// Something that was told in the log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Told {
+    /// When.
+    pub tick: u64,
+    /// How grave it is.
+    pub level: Level,
+    /// In words.
+    pub words: String,
+}
+
+/// Everything that a panel shows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shown {
+    /// What can be observed.
+    pub outputs: Outputs,
+    /// Weather and failures.
+    pub world: World,
+    /// Touchdown, corridor, limits so far.
+    pub debrief: Debrief,
+    /// Ticks so far that ended after the next one was due.
+    pub overruns: u64,
+    /// The greatest lateness within the last second, ns.
+    pub late_ns: u64,
+    /// The same in the whole flight, slips apart.
+    pub late_ns_max: u64,
+    /// From an input's time in the kernel to the picture: the greatest within the last second, ns; 0
+    /// without one.
+    pub latency_ns: u64,
+    /// Of the second under way: lateness, latency, ticks.
+    gathering: (u64, u64, u64),
+}
+
+/// Ticks a second.
+const SECOND_TICKS: u64 = 1_000_000_000 / engine::STEP_NS;
+
+impl Shown {
+    /// Adds how a tick kept time.
+    pub(crate) fn add(&mut self, timing: &TimingRecord) {
+        self.overruns += timing.overrun;
+        self.late_ns_max = self.late_ns_max.max(timing.late_ns);
+        let (late_ns, latency_ns, ticks) = &mut self.gathering;
+        *late_ns = (*late_ns).max(timing.late_ns);
+        *latency_ns = (*latency_ns).max(timing.latency_ns);
+        *ticks += 1;
+        if *ticks == SECOND_TICKS {
+            (self.late_ns, self.latency_ns) = (*late_ns, *latency_ns);
+            self.gathering = (0, 0, 0);
+        }
+    }
+
+    /// Takes what there is to be seen.
+    pub(crate) fn of(&mut self, outputs: &Outputs, world: &World, debrief: &Debrief) {
+        (self.outputs, self.world, self.debrief) = (*outputs, *world, *debrief);
+    }
+}
 
 /// Where the flight is, for whoever shows it, written by the loop without waiting.
 #[derive(Debug, Default)]
@@ -30,6 +87,9 @@ pub struct Progress {
     /// Controls that wait for pick-up and are to go up to it, and down, a bit each by their places.
     waiting_up: AtomicU64,
     waiting_down: AtomicU64,
+    /// Neither side waits for the other.
+    shown: Mutex<Shown>,
+    told: Mutex<Option<Receiver<Told>>>,
     /// The last signal that came, by its place in [`ENDING`], from 1.
     signal: Arc<AtomicUsize>,
     pub(crate) mismatches: Arc<AtomicU64>,
@@ -75,9 +135,8 @@ impl Progress {
     /// # Errors
     /// When the system refuses the handlers.
     pub fn stop_on_signals(&self) -> std::io::Result<()> {
-        let ignored = ignored();
-        for (number, (signal, _)) in (1..).zip(ENDING) {
-            if matches!(signal, SIGHUP | SIGXFSZ) && ignored & 1 << (signal - 1) != 0 {
+        for (number, &(signal, _)) in (1..).zip(ENDING) {
+            if is_ignored(signal) {
                 continue;
             }
             // The name first: whoever sees that it should end can say why.
@@ -110,6 +169,29 @@ impl Progress {
             unplugged: self.unplugged.load(Ordering::Relaxed),
             waiting_up: self.waiting_up.load(Ordering::Relaxed),
             waiting_down: self.waiting_down.load(Ordering::Relaxed),
+        }
+    }
+
+    /// Everything that there is to be seen, as new as it can be had without waiting.
+    pub fn shown(&self) -> Option<Shown> {
+        self.shown.try_lock().ok().map(|shown| *shown)
+    }
+
+    /// What was told in the log since the last call.
+    pub fn told(&self) -> Vec<Told> {
+        let told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        told.iter().flat_map(Receiver::try_iter).collect()
+    }
+
+    /// From where to take what is told in the log.
+    pub(crate) fn listen(&self, told: Receiver<Told>) {
+        *self.told.lock().unwrap_or_else(PoisonError::into_inner) = Some(told);
+    }
+
+    /// Written by the loop, if nobody is reading at this moment.
+    pub(crate) fn show_all(&self, shown: &Shown) {
+        if let Ok(mut place) = self.shown.try_lock() {
+            *place = *shown;
         }
     }
 
@@ -148,12 +230,4 @@ impl Progress {
         self.waiting_up.store(up, Ordering::Relaxed);
         self.waiting_down.store(down, Ordering::Relaxed);
     }
-}
-
-/// The signals that whoever started this process has it ignore, a bit each from signal 1 on; none where
-/// the system does not tell.
-fn ignored() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }

@@ -16,6 +16,9 @@
 //! wind = { from_deg = 270.0, kt = 15.0 }
 //! gust = { up_mps = 6.0, s = 2.0 }          # north_mps, east_mps, up_mps; 1 - cosine
 //! turbulence_mps = 1.5                      # vertical intensity
+//! pause = false              # true freezes the aircraft, false lets it go on
+//! save = false               # true saves the situation in a file beside the log
+//! restart = "saved"          # or "start", "marker": goes on from there
 //! end = false                # true ends the flight
 //! ```
 
@@ -32,6 +35,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::hands::{Hands, Reach};
 use crate::pilots::VirtualDevice;
+use crate::restart::Restart;
 
 /// Why a script cannot be played.
 #[derive(Debug, thiserror::Error)]
@@ -124,7 +128,19 @@ struct Event {
     turbulence_mps: Option<f64>,
     pause: Option<bool>,
     #[serde(default)]
+    save: bool,
+    restart: Option<From>,
+    #[serde(default)]
     end: bool,
+}
+
+/// What a script can go on from.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum From {
+    Start,
+    Marker,
+    Saved,
 }
 
 /// An axis on its way.
@@ -169,7 +185,10 @@ impl Script {
             events.push((event, axes));
         }
         events.sort_by(|(a, _), (b, _)| a.at_s.total_cmp(&b.at_s));
-        Ok(Self { device, events, next: 0, motions: Vec::new(), at: Vec::new() })
+        // No memory is asked for in flight.
+        let room = device.axes().count();
+        let (motions, at) = (Vec::with_capacity(room + 1), Vec::with_capacity(room));
+        Ok(Self { device, events, next: 0, motions, at })
     }
 
     fn begin(&mut self, i: usize, reach: &mut Reach<'_>) {
@@ -211,6 +230,14 @@ impl Script {
         }
         if let Some(pause) = event.pause {
             reach.world.paused = u64::from(pause);
+        }
+        *reach.save |= event.save;
+        if let Some(from) = event.restart {
+            *reach.restart = Some(match from {
+                From::Start => Restart::Start,
+                From::Marker => Restart::Marker,
+                From::Saved => Restart::Saved,
+            });
         }
         if event.end {
             *reach.done = true;
@@ -264,6 +291,17 @@ fn check_axis(
 }
 
 impl Hands for Script {
+    fn events_a_tick(&self) -> usize {
+        let presses =
+            |event: &Event| 2 * event.press.len() + event.hold.len() + event.release.len();
+        // Those that begin within a tick after each of them.
+        let together = self.events.iter().enumerate().map(|(i, (first, _))| {
+            let soon = self.events[i..].iter().take_while(|(e, _)| e.at_s <= first.at_s + STEP_S);
+            soon.map(|(event, _)| presses(event)).sum::<usize>()
+        });
+        self.device.axes().count() + together.max().unwrap_or(0)
+    }
+
     fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
         let time_s = reach.tick as f64 * STEP_S;
         while self.events.get(self.next).is_some_and(|(event, _)| event.at_s <= time_s) {

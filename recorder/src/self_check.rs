@@ -33,6 +33,8 @@ const TOLD_MAX: u64 = 100;
 // A tick is by far the most frequent.
 #[allow(clippy::large_enum_variant)]
 enum ToRefly {
+    /// What the tick begins with in place of the state before it.
+    Restart(State),
     Event(DeviceEvent),
     Tick(World, State),
 }
@@ -101,9 +103,18 @@ impl SelfCheck {
     }
 
     /// Hands a tick over, all of it or nothing. Never waits.
-    pub fn put(&mut self, events: &[DeviceEvent], world: World, state: &State) {
+    pub fn put(
+        &mut self,
+        restart: Option<&State>,
+        events: &[DeviceEvent],
+        world: World,
+        state: &State,
+    ) {
         let started = Instant::now();
-        if self.ring.slots() > events.len() {
+        if self.ring.slots() > events.len() + 1 {
+            if let Some(restart) = restart {
+                let _ = self.ring.push(ToRefly::Restart(*restart));
+            }
             for event in events {
                 let _ = self.ring.push(ToRefly::Event(*event));
             }
@@ -222,6 +233,11 @@ impl Checker {
 
     fn take(&mut self, handed: ToRefly) {
         match handed {
+            // What is there so far is checked, and the next second begins with it.
+            ToRefly::Restart(state) => {
+                self.check();
+                self.second.restart(state);
+            }
             ToRefly::Event(event) => self.second.events.push(event),
             // A tick was dropped before this one: what is there so far is checked, and the next
             // second begins after the gap.
@@ -279,7 +295,7 @@ mod tests {
             change(&mut state);
             check.wait_for_room();
             if keep(tick) {
-                check.put(inputs.events, inputs.world, &state);
+                check.put(None, inputs.events, inputs.world, &state);
             }
         }
         (check.finish(), told.try_iter().collect())

@@ -1,5 +1,7 @@
 //! How the flight kept time, for the summary at landing.
 
+use std::collections::BTreeMap;
+
 use hdrhistogram::Histogram;
 use logs::records::TimingRecord;
 
@@ -20,6 +22,25 @@ impl Durations {
 
     pub(crate) fn add(&mut self, ns: u64) {
         self.0.saturating_record(ns.max(1));
+    }
+
+    /// The histogram as text: the greatest duration of each step in ns and how many there were, to two
+    /// digits; the last one is the longest of all.
+    pub fn text(&self) -> String {
+        let mut steps: Vec<(u64, u64)> = Vec::new();
+        for step in self.0.iter_recorded() {
+            let digits = step.value_iterated_to().max(1).ilog10().saturating_sub(1);
+            let width = 10_u64.pow(digits);
+            let to_ns = step.value_iterated_to().div_ceil(width) * width;
+            match steps.last_mut() {
+                Some((last_ns, count)) if *last_ns == to_ns => {
+                    *count += step.count_since_last_iteration()
+                }
+                _ => steps.push((to_ns, step.count_since_last_iteration())),
+            }
+        }
+        let steps: Vec<String> = steps.iter().map(|(ns, count)| format!("{ns}:{count}")).collect();
+        steps.join(" ")
     }
 
     /// How many.
@@ -55,10 +76,14 @@ pub struct Statistics {
     pub late: Durations,
     /// The step alone.
     pub step: Durations,
-    /// From waking up, when inputs are sampled, until the picture was on its way.
+    /// From when a tick was due until the picture was on its way: what a person meets, lateness included.
     pub sent: Durations,
-    /// From the kernel's time of a device event until the picture was on its way.
+    /// From the kernel's time of each device event until the picture was on its way.
     pub latency: Durations,
+    /// Device events without a time of the kernel's: pilot models, scripts, keys.
+    pub synthetic_events: u64,
+    /// Device events whose time cannot be: in the future, or from before the flight.
+    pub implausible_events: u64,
     /// Handing the tick over to the writer.
     pub record: Durations,
 }
@@ -76,6 +101,8 @@ impl Statistics {
             step: Durations::new(),
             sent: Durations::new(),
             latency: Durations::new(),
+            synthetic_events: 0,
+            implausible_events: 0,
             record: Durations::new(),
         }
     }
@@ -89,11 +116,35 @@ impl Statistics {
         self.slip_ns_max = self.slip_ns_max.max(timing.slip_ns);
         self.late.add(timing.late_ns);
         self.step.add(timing.step_ns);
-        self.sent.add(timing.sent_ns);
+        self.sent.add(timing.late_ns + timing.sent_ns);
         self.record.add(timing.record_ns);
-        if timing.latency_ns > 0 {
-            self.latency.add(timing.latency_ns);
-        }
+        self.implausible_events += timing.implausible_events;
+    }
+
+    /// Every kind of duration, with its name in the log.
+    pub fn kinds(&self) -> [(&'static str, &Durations); 5] {
+        [
+            ("late_ns", &self.late),
+            ("step_ns", &self.step),
+            ("sent_ns", &self.sent),
+            ("latency_ns", &self.latency),
+            ("record_ns", &self.record),
+        ]
+    }
+
+    /// As facts for the log: the histogram of each kind, and what was counted.
+    pub fn facts(&self) -> BTreeMap<String, String> {
+        let counts = [
+            ("ticks", self.ticks),
+            ("overruns", self.overruns),
+            ("slips", self.slips),
+            ("slip_ns", self.slip_ns),
+            ("synthetic_events", self.synthetic_events),
+            ("implausible_events", self.implausible_events),
+        ];
+        let counts = counts.map(|(name, count)| (name.to_string(), count.to_string()));
+        let kinds = self.kinds().map(|(name, durations)| (name.to_string(), durations.text()));
+        counts.into_iter().chain(kinds).collect()
     }
 }
 

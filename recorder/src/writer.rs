@@ -3,24 +3,27 @@
 //! The loop never waits for it. What does not fit into the ring any more, after some twenty seconds
 //! of stalled disk, goes to a list that grows: slower, but nothing is dropped.
 
-use std::collections::VecDeque;
-use std::sync::Arc;
+use std::collections::{BTreeMap, VecDeque};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use engine::frames::Attitude;
-use engine::inputs::DeviceEvent;
+use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Outputs, State};
 use logs::devices::DeviceIdentity;
-use logs::records::{Happening, InputsRecord, TimingRecord};
+use logs::records::{Happening, InputsRecord, RestartRecord, TIMING_FACTS, TimingRecord};
 use logs::{Closed, FlightWriter, LogError, Narrator, Observed};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::clock::{Awake, now_ns};
 use crate::end::End;
+use crate::restart::Situation;
 use crate::self_check::Mismatch;
+use crate::situation;
 
 /// Entries the ring holds: three a tick, twenty seconds and some.
 const RING_ENTRIES: usize = 16_384;
@@ -61,6 +64,10 @@ pub enum ToRecord {
     Timing(TimingRecord),
     /// The phase of the flight changed.
     Phase(u64, u64, &'static str),
+    /// Another state takes the place of the last one; the tick's first entry.
+    Restart(RestartRecord),
+    /// The state before the tick is to be saved with the world of the tick, as a situation.
+    Save(State),
     /// The clock was anchored anew before this tick, by so many ns.
     Slip(u64, u64),
     /// The flight ends: tick and reason.
@@ -76,6 +83,8 @@ pub struct Recording {
     failed: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
     awake: Arc<Awake>,
+    /// How the flight kept time, for the end of the log.
+    facts: Arc<Mutex<BTreeMap<String, String>>>,
     /// Most entries that ever waited.
     pub backlog_max: usize,
 }
@@ -87,6 +96,7 @@ impl Recording {
         aircraft: &Aircraft,
         initial: &State,
         mismatches: Receiver<Mismatch>,
+        saver: Saver,
         devices: Option<Receiver<DeviceIdentity>>,
     ) -> Self {
         let filling = ToRecord::State(*initial, Observed::default());
@@ -96,6 +106,7 @@ impl Recording {
         let done = Arc::new(AtomicBool::new(false));
         let awake = Arc::new(Awake::default());
         awake.beat(now_ns());
+        let facts = Arc::default();
         let scribe = Scribe {
             writer: Some(writer),
             entries,
@@ -103,6 +114,9 @@ impl Recording {
             narrator: Narrator::new(initial, &aircraft.envelope.airframe),
             mismatches,
             devices,
+            saver,
+            world: World::default(),
+            facts: Arc::clone(&facts),
             held: None,
             tick: initial.tick,
             delay: Delay::default(),
@@ -114,6 +128,7 @@ impl Recording {
         };
         let thread = thread::spawn(move || scribe.run());
         Self {
+            facts,
             ring,
             overflow: VecDeque::new(),
             view,
@@ -172,8 +187,9 @@ impl Recording {
         self.failed.load(Ordering::Relaxed)
     }
 
-    /// Ends the log: what became of it or what stopped the writer, and how it was held up.
-    pub fn finish(mut self) -> (Result<Closed, LogError>, Delay) {
+    /// Ends the log, with how the flight kept time: what became of it or what stopped the writer, and how
+    /// it was held up.
+    pub fn finish(mut self, timing: BTreeMap<String, String>) -> (Result<Closed, LogError>, Delay) {
         while let Some(waiting) = self.overflow.pop_front() {
             let mut entry = waiting;
             while let Err(PushError::Full(back)) = self.ring.push(entry) {
@@ -182,6 +198,7 @@ impl Recording {
                 thread::sleep(NAP);
             }
         }
+        *self.facts.lock().unwrap_or_else(PoisonError::into_inner) = timing;
         self.done.store(true, Ordering::Release);
         while self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
             self.beat(now_ns());
@@ -198,6 +215,42 @@ fn touched_ring<T: Copy>(capacity: usize, entry: T) -> (Producer<T>, Consumer<T>
     while producer.push(entry).is_ok() {}
     while consumer.pop().is_ok() {}
     (producer, consumer)
+}
+
+/// Saves situations beside the log.
+#[derive(Debug)]
+pub struct Saver {
+    /// The log's path without its ending.
+    stem: PathBuf,
+    /// Whose situations they are.
+    aircraft: String,
+    /// How many were saved.
+    saved: u64,
+}
+
+impl Saver {
+    /// Beside that log.
+    pub fn beside(log: &Path, aircraft: &str) -> Self {
+        Self { stem: log.with_extension(""), aircraft: aircraft.into(), saved: 0 }
+    }
+
+    /// Saves a situation in a file that was not there: its number in the flight, and what is told of it.
+    fn save(&mut self, situation: &Situation) -> (u64, String) {
+        let name = |number: u64| {
+            let mut name = self.stem.clone().into_os_string();
+            name.push(format!("-situation-{number}.toml"));
+            PathBuf::from(name)
+        };
+        let free = (1..).map(name).find(|path| !path.exists()).unwrap_or_default();
+        match situation::save(&free, situation, &self.aircraft) {
+            Ok(()) => {
+                self.saved += 1;
+                let name = free.file_name().unwrap_or(free.as_os_str()).display();
+                (self.saved, format!("situation saved as {name}"))
+            }
+            Err(error) => (0, format!("the situation could not be saved: {error}")),
+        }
+    }
 }
 
 /// What is told when the clock was anchored anew.
@@ -218,6 +271,11 @@ struct Scribe {
     narrator: Narrator,
     mismatches: Receiver<Mismatch>,
     devices: Option<Receiver<DeviceIdentity>>,
+    saver: Saver,
+    /// The world of the tick under way.
+    world: World,
+    /// How the flight kept time, once it is over.
+    facts: Arc<Mutex<BTreeMap<String, String>>>,
     /// A state that waits for the timing of its tick, which is of an earlier moment.
     held: Option<(State, Observed)>,
     /// Tick of the last state written.
@@ -252,7 +310,10 @@ impl Scribe {
         let released = self.release();
         self.keep(released);
         let log = match (self.writer, self.error) {
-            (Some(writer), None) => writer.finish(),
+            (Some(mut writer), None) => {
+                let facts = self.facts.lock().unwrap_or_else(PoisonError::into_inner);
+                writer.facts(TIMING_FACTS, &facts).and_then(|()| writer.finish())
+            }
             (_, Some(error)) => Err(error),
             (None, None) => Err(writer_died()),
         };
@@ -319,7 +380,18 @@ impl Scribe {
                 writer.event(event)?;
                 self.narrator.event(writer, event)
             }
+            ToRecord::Restart(restart) => {
+                writer.restart(restart)?;
+                self.narrator.restart(writer, restart)
+            }
+            ToRecord::Save(state) => {
+                let situation = Situation { state: *state, world: self.world };
+                let (number, words) = self.saver.save(&situation);
+                let what = Happening::SituationSaved;
+                writer.happened(state.tick, what, number, [0.0; 2], &words)
+            }
             ToRecord::Inputs(inputs) => {
+                self.world = inputs.world;
                 writer.inputs(inputs)?;
                 self.narrator.inputs(writer, inputs)
             }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use engine::math::{max, sqrt};
 use engine::{STEP_S, State};
+use logs::devices::DeviceIdentity;
 use logs::fields::Value;
 use logs::output::Output;
 use logs::text::at;
@@ -12,6 +13,7 @@ use logs::{Ending, FlightReader, Identity, LogError, OpenOptions, Setup, cdr};
 
 use crate::compare::Names;
 use crate::judgement::{Judgement, Outcome};
+use crate::made::proven;
 use crate::outputs::{OutputsCheck, OutputsDifference, are_todays};
 use crate::refly::{OPEN, ReplayError, flown, read};
 use crate::rewrite::{NewLog, parent, rewrite};
@@ -91,7 +93,7 @@ pub fn bless(
     write: bool,
 ) -> Result<Moved, ReplayError> {
     let options = OpenOptions { across_versions: true, ..OPEN };
-    let source = Source::opened(log, options)?.judgement;
+    let Source { judgement: source, devices, .. } = Source::opened(log, options)?;
     if !matches!(source.outcome, Outcome::NotReflown | Outcome::Diverged | Outcome::OutputsDiffer) {
         return Err(refused(&source.words));
     }
@@ -99,7 +101,7 @@ pub fn bless(
     if source.outcome == Outcome::OutputsDiffer && source.first_bad_tick.is_none() {
         return Err(refused(&source.words));
     }
-    let moved = fly(log, identity.clone(), aircraft_toml, false)?;
+    let moved = fly(log, identity.clone(), aircraft_toml, &devices, false)?;
     if !write || moved.is_same() && moved.models.0 == moved.models.1 {
         return Ok(moved);
     }
@@ -110,7 +112,7 @@ pub fn bless(
     };
     let first = first.map_or("unknown".into(), |tick| tick.to_string());
     let identity = identity.with(parent::JUDGEMENT, words).with(parent::FIRST_BAD_TICK, first);
-    fly(log, identity, aircraft_toml, true)
+    fly(log, identity, aircraft_toml, &devices, true)
 }
 
 /// Where the flight begins: as its scenario says, or with its first recorded state.
@@ -136,6 +138,7 @@ fn fly(
     log: &Path,
     identity: Identity,
     aircraft_toml: Option<&str>,
+    devices: &[DeviceIdentity],
     write: bool,
 ) -> Result<Moved, ReplayError> {
     let mut reader = logs::open(log, OpenOptions { across_versions: true, ..OPEN })?;
@@ -157,8 +160,8 @@ fn fly(
     let before = logs::closing(log).map_or(0, |(_, digest)| digest);
     let identity = inherited(identity, &reader.identity, before);
     let out = Output::beside(log, true, &[])?;
-    let new =
-        NewLog { out: &out, setup: &setup, identity: &identity, timing: true, picture_of: None };
+    let (identity, setup) = (&identity, &setup);
+    let new = NewLog { out: &out, setup, identity, timing: true, devices, picture_of: None };
     let names = Names::of::<State>()?;
     let mut seen = Seen::new(&names, &reader.initial);
     seen.compare(&reader.initial, &initial)?;
@@ -167,6 +170,9 @@ fn fly(
     let mut failure = None;
     let mut gathered = Gathered::from(&initial);
     let rewritten = rewrite(&mut reader, &initial, &new, |tick, state, outputs, reader| {
+        if let Some(restart) = &tick.restart {
+            gathered.restart(&restart.state);
+        }
         gathered.add(state, outputs);
         outputs_check.computed(outputs);
         if are_todays(reader)
@@ -210,15 +216,19 @@ fn fly(
     Ok(moved)
 }
 
-/// Puts the new flight where the old one is, in the old one's form; returns its size.
+/// Puts the new flight where the old one is, in the old one's form, once it was reflown; returns its size.
 fn take_place(log: &Path, new: Output, compacted: bool, bytes: u64) -> Result<u64, ReplayError> {
-    if !compacted {
-        new.finish()?;
-        return Ok(bytes);
-    }
-    let packed =
-        logs::compact::compact(new.unfinished(), log, true, KEYFRAME_TICKS, flown, |_| ())?;
-    Ok(packed.bytes)
+    let (new, bytes) = if compacted {
+        let packed = Output::beside(log, true, &[])?;
+        let keyframes = KEYFRAME_TICKS;
+        let made = logs::compact::compact(new.unfinished(), &packed, keyframes, flown, |_| ())?;
+        (packed, made.bytes)
+    } else {
+        (new, bytes)
+    };
+    proven(new.unfinished(), &[Outcome::Exact])?;
+    new.finish()?;
+    Ok(bytes)
 }
 
 fn refused(what: &str) -> ReplayError {

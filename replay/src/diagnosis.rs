@@ -148,7 +148,7 @@ impl SingleStepper {
         single: &mut SingleSteps,
     ) -> Result<(), LogError> {
         let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
-        let (stepped, outputs) = step(aircraft, before, &inputs);
+        let (stepped, outputs) = step(aircraft, &recorded.begins_with(before), &inputs);
         if single.block.is_none() {
             self.outputs.insert(outputs.tick, outputs);
         }

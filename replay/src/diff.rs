@@ -6,7 +6,7 @@ use std::path::Path;
 use engine::State;
 use engine::inputs::DeviceEvent;
 use logs::fields::Value;
-use logs::records::InputsRecord;
+use logs::records::{InputsRecord, RestartRecord};
 use logs::{FlightReader, LogError, Setup, cdr};
 
 use crate::compare::{Difference, Names};
@@ -204,6 +204,9 @@ pub(crate) struct At {
     pub(crate) tick: u64,
     pub(crate) state: Vec<u8>,
     pub(crate) led: Option<(Vec<DeviceEvent>, InputsRecord)>,
+    /// What took the place of the state before it.
+    #[cfg_attr(not(feature = "rerun"), expect(dead_code, reason = "only the viewer flies by it"))]
+    pub(crate) restart: Option<Box<RestartRecord>>,
 }
 
 /// A log being read.
@@ -220,7 +223,7 @@ impl Cursor {
     pub(crate) fn open(path: &Path) -> Result<Self, LogError> {
         let reader = logs::open(path, crate::refly::OPEN)?;
         let (tick, state) = (reader.initial.tick, cdr::encode(&reader.initial)?);
-        let now = Some(At { tick, state, led: None });
+        let now = Some(At { tick, state, led: None, restart: None });
         let facts = Facts::of_reading(&reader);
         Ok(Self { reader, start_tick: tick, last: (tick, 0), facts, disorder: None, now })
     }
@@ -230,7 +233,8 @@ impl Cursor {
             Ok(Some(tick)) => {
                 self.last = (tick.record.state.tick, tick.record.digest);
                 let led = Some((tick.events.clone(), tick.inputs));
-                let now = At { tick: self.last.0, state: tick.state_message.clone(), led };
+                let (state, restart) = (tick.state_message.clone(), tick.restart.clone());
+                let now = At { tick: self.last.0, state, led, restart };
                 self.facts.add(tick, None);
                 self.reader.timings.clear();
                 Some(now)

@@ -192,7 +192,8 @@ impl Reflight {
         } else {
             let tick = &self.reader.tick;
             let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
-            (self.state, self.outputs) = step(&self.aircraft, &self.state, &inputs);
+            let before = tick.begins_with(&self.state);
+            (self.state, self.outputs) = step(&self.aircraft, &before, &inputs);
         }
         self.message.clear();
         cdr::append(&mut self.message, &self.state)?;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use engine::inputs::World;
 use engine::{Inputs, Outputs, State, observe, step};
+use logs::devices::DeviceIdentity;
 use logs::output::Output;
 use logs::records::{EventRecord, Happening, InputsRecord};
 use logs::view::Remark;
@@ -46,8 +47,11 @@ pub struct NewLog<'a> {
     pub setup: &'a Setup,
     /// Who flies.
     pub identity: &'a Identity,
-    /// Whether to take over how the ticks kept time.
+    /// Whether to take over how the ticks kept time, and what is told of it: the flight is the recorded
+    /// one, and not one that would have been.
     pub timing: bool,
+    /// Input devices of the log whose inputs it has.
+    pub devices: &'a [DeviceIdentity],
     /// The log whose pictures of the first state are taken over, message for message, where nothing was
     /// changed.
     pub picture_of: Option<&'a Path>,
@@ -121,8 +125,15 @@ pub fn rewrite_in(
             let seen = observe(aircraft, &state, &flown.world);
             writer.view(&seen, state.plant.attitude)?;
         }
+        for device in new.devices.iter().filter(|device| device.tick <= state.tick) {
+            writer.device(device)?;
+        }
         while reader.next_tick()?.is_some() {
             let tick = &reader.tick;
+            if let Some(restart) = &tick.restart {
+                writer.restart(restart)?;
+                narrator.restart(&mut writer, restart)?;
+            }
             for event in &tick.events {
                 writer.event(event)?;
                 narrator.event(&mut writer, event)?;
@@ -130,10 +141,13 @@ pub fn rewrite_in(
             let inputs = InputsRecord { world: change(tick.inputs.world), ..tick.inputs };
             writer.inputs(&inputs)?;
             narrator.inputs(&mut writer, &inputs)?;
-            crew_said(reader, &mut writer, &mut touchdown_ticks)?;
+            crew_said(reader, &mut writer, new.timing, &mut touchdown_ticks)?;
+            for device in reader.devices.drain(..).filter(|device| device.tick > initial.tick) {
+                writer.device(&device)?;
+            }
             let tick = &reader.tick;
             let inputs = Inputs { events: &tick.events, world: inputs.world };
-            let (next, outputs) = step(aircraft, &state, &inputs);
+            let (next, outputs) = step(aircraft, &tick.begins_with(&state), &inputs);
             state = next;
             for timing in reader.timings.drain(..).filter(|_| new.timing) {
                 writer.timing(&timing)?;
@@ -144,7 +158,7 @@ pub fn rewrite_in(
             watch(&reader.tick, &state, &outputs, reader);
             reader.outputs.retain(|outputs| outputs.tick > state.tick);
         }
-        crew_said(reader, &mut writer, &mut touchdown_ticks)?;
+        crew_said(reader, &mut writer, new.timing, &mut touchdown_ticks)?;
         match reader.ending() {
             Some(Ending::Damaged(why)) => Err(LogError::Order(format!("damaged: {why}")).into()),
             _ => Ok(()),
@@ -165,10 +179,12 @@ fn take_picture(log: &Path, tick: u64, writer: &mut FlightWriter) -> Result<bool
     Ok(any)
 }
 
-/// Takes over what only the crew could know; everything else is told anew from the numbers.
+/// Takes over what only the crew could know, and with `timing` the machine; everything else is told anew
+/// from the numbers.
 fn crew_said(
     reader: &mut FlightReader,
     writer: &mut FlightWriter,
+    timing: bool,
     touchdown_ticks: &mut Vec<u64>,
 ) -> Result<(), LogError> {
     let remarks: Vec<Remark> = reader.remarks.drain(..).collect();
@@ -177,9 +193,14 @@ fn crew_said(
         |event: &&EventRecord| event.kind == Happening::WeightOnWheels as u64 && event.value == 1;
     touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
     for (event, remark) in happenings.iter().zip(&remarks) {
-        if let Some(what @ (Happening::Phase | Happening::Landed | Happening::GaveUp)) =
-            Happening::from_u64(event.kind)
-        {
+        let Some(what) = Happening::from_u64(event.kind) else { continue };
+        let known_by_machine =
+            matches!(what, Happening::Slip | Happening::WriterHeldUp | Happening::SelfCheck);
+        let by_crew = matches!(
+            what,
+            Happening::Phase | Happening::Landed | Happening::GaveUp | Happening::SituationSaved
+        );
+        if by_crew || timing && known_by_machine {
             writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
         }
     }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use logs::devices::DeviceIdentity;
 use logs::{Identity, OpenOptions};
 
 use crate::judgement::{Facts, Judgement, Outcome};
@@ -17,6 +18,8 @@ pub struct Source {
     last_tick: u64,
     /// What a log that it was made from was, and its first bad tick.
     inherited: [Option<String>; 2],
+    /// The input devices that were found.
+    pub devices: Vec<DeviceIdentity>,
 }
 
 /// Keys that say where a log that is not to be trusted comes from.
@@ -36,7 +39,8 @@ impl Source {
         let mut reader = logs::open(log, options)?;
         let inherited = KEYS.map(|key| reader.identity.0.get(key).cloned());
         let facts = Facts::read(&mut reader, &Window::default())?;
-        Ok(Self { judgement: facts.judge(), last_tick: facts.last_tick(), inherited })
+        let devices = std::mem::take(&mut reader.devices);
+        Ok(Self { judgement: facts.judge(), last_tick: facts.last_tick(), inherited, devices })
     }
 
     /// The same, but refuses what no log can be made of: what is proven of it would be lost in the new one.

@@ -71,6 +71,11 @@ impl Gathered {
         Self { before: Some(*initial), ..Self::default() }
     }
 
+    /// Goes on from another state: that it stands on the ground is no touchdown.
+    pub fn restart(&mut self, state: &State) {
+        self.before = Some(*state);
+    }
+
     /// Adds a tick.
     pub fn add(&mut self, state: &State, outputs: &Outputs) {
         let first = self.extremes.is_empty();
@@ -134,6 +139,9 @@ pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
     let disorder = loop {
         match flight.next_tick() {
             Ok(Some(reflown)) => {
+                if let Some(restart) = &reflown.recorded.restart {
+                    gathered.restart(&restart.state);
+                }
                 gathered.add(reflown.state, reflown.outputs);
                 facts.add(reflown.recorded, Some(reflown.exact));
                 flight.reader.timings.clear();

@@ -128,7 +128,7 @@ pub fn watch(seconds: Option<f64>) -> Result<Status> {
     let bars = io::stdout().is_terminal();
     let (mut events, mut drawn) = (Vec::new(), 0);
     while until.is_none_or(|until| Instant::now() < until) {
-        devices.take(0, &mut events);
+        devices.take(0, &mut events, usize::MAX);
         for event in events.drain(..) {
             let moved = note(&mut found, &event);
             if let Some(line) = moved.filter(|_| !bars) {
@@ -207,7 +207,7 @@ pub fn map_new(path: &Path, force: bool, seconds: Option<f64>) -> Result<Status>
         say!("{asked}");
         let begun = Instant::now();
         let answer = loop {
-            devices.take(0, &mut events);
+            devices.take(0, &mut events, usize::MAX);
             let taken = events
                 .drain(..)
                 .fold(None, |found: Option<String>, event| found.or_else(|| guide.take(&event)));

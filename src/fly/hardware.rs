@@ -16,6 +16,11 @@ const MISSING: &str = "this program was built without `sticks`: build it with th
 pub struct Named(Vec<String>);
 
 impl Named {
+    /// By their numbers.
+    pub fn names(&self) -> &[String] {
+        &self.0
+    }
+
     /// Devices that came or went and controls that wait for pick-up, since the crew was told.
     pub fn lines(&self, told: &Snapshot, now: &Snapshot) -> Vec<String> {
         let mut lines = Vec::new();
@@ -95,19 +100,29 @@ pub fn plug_in(_: &mut Flight, _: &mut Params, _: Option<&Path>) -> Result<Named
     anyhow::bail!(MISSING)
 }
 
-/// Prints what moves which control.
+/// Prints what moves which control; of a map that nothing is plugged in for, what it says.
 #[cfg(feature = "sticks")]
 pub fn say_controls(path: Option<&Path>) -> Result<Status> {
     use recorder::devices::called;
 
-    let plan = planned(path)?;
+    let (plan, nothing) = match (planned(path), path) {
+        (Ok(plan), _) => (plan, None),
+        (Err(error), Some(path)) => {
+            let map = crate::maps::cockpit_map(path)?;
+            (recorder::devices::Plan { map, ..Default::default() }, Some(error))
+        }
+        (Err(error), None) => return Err(error),
+    };
     let name = |number: usize| match plan.taken.iter().find(|(taken, _)| *taken == number) {
         Some((_, found)) => found.name.clone(),
         None => format!("{} (not plugged in)", called(&plan.map.device[number])),
     };
-    say!("what moves which control:");
-    crate::controls::lines(&plan.map, name).iter().for_each(|line| say!("{line}"));
+    let names: Vec<String> = (0..plan.map.device.len()).map(name).collect();
+    crate::controls::lines(&plan.map, &names).iter().for_each(|line| say!("{line}"));
     plan.remarks.iter().for_each(|remark| say!("remark: {remark}"));
+    if let Some(error) = nothing {
+        say!("remark: {error}");
+    }
     Ok(Status::Done)
 }
 

@@ -79,11 +79,12 @@ pub fn run(args: &Args) -> Result<Status> {
     let (ticks, _) = cut(args, &source, &window, &whole, false)?;
     // Before the flight takes its place: what can fail has been done then.
     let entry = enter(&folder.join("README.md"), name, reason)?;
+    let output = Output::beside(&out, args.force, &[&args.log])?;
     let (from, keyframes) = (whole.unfinished(), KEYFRAME_TICKS);
-    let bytes = logs::compact::compact(from, &out, args.force, keyframes, replay::flown, |_| ())
+    let bytes = logs::compact::compact(from, &output, keyframes, replay::flown, |_| ())
         .with_context(|| out.display().to_string())?
         .bytes;
-    let made = Made::finished(&source, &out)?;
+    let made = Made::of(&source, output)?;
     entry.finish()?;
     told(&out, ticks, bytes);
     if bytes > GOLDEN_BYTES_MAX {
@@ -126,7 +127,8 @@ fn cut(
     }
     let (setup, initial) = (reader.setup.clone(), reader.initial);
     let picture_of = Some(log.as_path());
-    let new = NewLog { out, setup: &setup, identity: &identity, timing, picture_of };
+    let devices = &source.devices;
+    let new = NewLog { out, setup: &setup, identity: &identity, timing, devices, picture_of };
     let (mut ticks, mut wrong) = (0, None);
     let written = rewrite(&mut reader, &initial, &new, |tick, state, _, _| {
         ticks += 1;

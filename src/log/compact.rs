@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::compact::{self, Copied};
 use logs::output::Output;
 use logs::text::size;
-use replay::{Outcome, Source};
+use replay::Source;
 
+use crate::made::Made;
 use crate::numbers::between;
 use crate::status::Status;
 
@@ -53,10 +54,12 @@ pub fn compact(args: &CompactArgs) -> Result<Status> {
     let out = out(&args.log, args.out.as_deref(), &format!("{stem}-compact.mcap"));
     let source = Source::proven(&args.log, "not compacted")
         .with_context(|| args.log.display().to_string())?;
+    let output = Output::beside(&out, args.force, &[&args.log])?;
     let copied = work(&args.log, |progress| {
         let ticks = keyframe_ticks as u64;
-        compact::compact(&args.log, &out, args.force, ticks, replay::flown, progress)
+        compact::compact(&args.log, &output, ticks, replay::flown, progress)
     })?;
+    let made = Made::of(&source, output)?;
     let ticks = copied.states.saturating_sub(1);
     say!(
         "{}: {} of {}, {:.1} B a tick; {ticks} ticks ({:.1} s) flown again to the same bits",
@@ -67,8 +70,7 @@ pub fn compact(args: &CompactArgs) -> Result<Status> {
         ticks as f64 * STEP_S
     );
     say!("expanded again, it is the log that it was, message for message");
-    say!("source     {}: {}", args.log.display(), source.judgement);
-    Ok(Status::from(&source.judgement))
+    Ok(made.say(&args.log))
 }
 
 /// Expands.
@@ -84,13 +86,7 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
     let output = Output::beside(&out, args.force, &[&args.log])?;
     let copied =
         work(&args.log, |progress| compact::expand(&args.log, &output, replay::flown, progress))?;
-    // Every state that was flown again has to have the digest that was kept.
-    let made =
-        Source::of(output.unfinished()).with_context(|| out.display().to_string())?.judgement;
-    if !matches!(made.outcome, Outcome::NotReflown | Outcome::NeverClosed) {
-        bail!("{}: not expanded: it is not what was compacted: {made}", args.log.display());
-    }
-    output.finish()?;
+    let made = Made::of(&source, output)?;
     let ticks = copied.states.saturating_sub(1);
     say!(
         "{}: {}, {ticks} ticks ({:.1} s)",
@@ -98,7 +94,6 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
         size(copied.bytes),
         ticks as f64 * STEP_S
     );
-    say!("new log    {made}");
     match copied.same_file {
         Some(true) => say!("the file is the one that was compacted, byte for byte"),
         _ => say!(
@@ -106,8 +101,7 @@ pub fn expand(args: &ExpandArgs) -> Result<Status> {
              had put it together"
         ),
     }
-    say!("source     {}: {}", args.log.display(), source.judgement);
-    Ok(Status::from(&source.judgement))
+    Ok(made.say(&args.log))
 }
 
 /// Carries it out with a line of progress on a terminal.

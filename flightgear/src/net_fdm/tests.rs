@@ -1,10 +1,16 @@
 use core::mem::offset_of;
+use std::sync::OnceLock;
 
 use engine::frames::Euler;
+use engine::landing_gear::Leg;
 use engine::math::PI;
 use engine::state::Geodetic;
 
+use engine::inputs::World;
+use engine::{Aircraft, Outputs};
+
 use super::*;
+use crate::scene::Lamps;
 
 /// Rounding of single precision.
 const SINGLE: f64 = 1e-6;
@@ -13,9 +19,19 @@ fn near(got: F32, expected: f64) -> bool {
     (f64::from(got.get()) - expected).abs() <= SINGLE * max(1.0, expected.abs())
 }
 
+fn xv15() -> &'static Aircraft {
+    static XV15: OnceLock<Aircraft> = OnceLock::new();
+    XV15.get_or_init(|| aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15"))
+}
+
+fn sent(outputs: &Outputs) -> NetFdm {
+    let (world, lamps) = (World::default(), Lamps::default());
+    NetFdm::of(&Scene { aircraft: xv15(), outputs, world: &world, lamps })
+}
+
 /// A whole packet with the bytes at `offset` replaced.
 fn packet_with(offset: usize, bytes: &[u8]) -> Vec<u8> {
-    let mut packet = NetFdm::from_outputs(&Outputs::default()).bytes().to_vec();
+    let mut packet = sent(&Outputs::default()).bytes().to_vec();
     packet[offset..offset + bytes.len()].copy_from_slice(bytes);
     packet
 }
@@ -50,7 +66,7 @@ fn every_field_is_where_flightgear_reads_it() {
 fn the_wire_is_big_endian() {
     let place = Geodetic { height_m: 1.0, ..Geodetic::default() };
     let euler = Euler { roll_rad: -2.0, ..Euler::default() };
-    let packet = NetFdm::from_outputs(&Outputs { place, euler, ..Outputs::default() });
+    let packet = sent(&Outputs { place, euler, ..Outputs::default() });
     let bytes = packet.bytes();
     assert_eq!(bytes[0..4], [0, 0, 0, 0x18]);
     assert_eq!(bytes[24..32], [0x3f, 0xf0, 0, 0, 0, 0, 0, 0]);
@@ -73,7 +89,7 @@ fn flightgear_gets_the_right_degrees_from_its_wrong_pi() {
             longitude_rad: longitude_deg / DEG_PER_RAD,
             height_m: 11.28,
         };
-        let packet = NetFdm::from_outputs(&Outputs { place, ..Outputs::default() });
+        let packet = sent(&Outputs { place, ..Outputs::default() });
         let shown_deg = packet.latitude_rad.get() * 57.295_776_367_187_5;
         assert!((shown_deg / latitude_deg - 1.0).abs() < 1e-12, "{shown_deg}");
         let shown_deg = packet.longitude_rad.get() * 57.295_776_367_187_5;
@@ -85,27 +101,27 @@ fn flightgear_gets_the_right_degrees_from_its_wrong_pi() {
 #[test]
 fn beyond_the_date_line_longitude_starts_again() {
     let place = Geodetic { longitude_rad: 181.0 / DEG_PER_RAD, ..Geodetic::default() };
-    let packet = NetFdm::from_outputs(&Outputs { place, ..Outputs::default() });
+    let packet = sent(&Outputs { place, ..Outputs::default() });
     assert!((packet.longitude_deg() + 179.0).abs() < 1e-9);
 }
 
 #[test]
 fn heading_stays_within_a_turn() {
-    let sent = |heading_rad: f64| {
+    let heading = |heading_rad: f64| {
         let euler = Euler { heading_rad, ..Euler::default() };
-        NetFdm::from_outputs(&Outputs { euler, ..Outputs::default() }).psi_rad
+        sent(&Outputs { euler, ..Outputs::default() }).psi_rad
     };
-    assert!(near(sent(-1.0), TAU - 1.0));
-    assert!(near(sent(1.0), 1.0));
+    assert!(near(heading(-1.0), TAU - 1.0));
+    assert!(near(heading(1.0), 1.0));
     for heading_rad in [-PI, -1e-3, -1e-9, -1e-300, 0.0, 1e-9, 3.0, PI, 7.0] {
-        let psi_rad = f64::from(sent(heading_rad).get());
+        let psi_rad = f64::from(heading(heading_rad).get());
         assert!((0.0..TAU).contains(&psi_rad), "{heading_rad} sent as {psi_rad}");
     }
 }
 
 #[test]
 fn level_flight_weighs_one_g_and_keeps_the_ball_in_the_middle() {
-    let packet = NetFdm::from_outputs(&Outputs {
+    let packet = sent(&Outputs {
         specific_force_mps2: Vec3::new(0.0, 0.0, -engine::GRAVITY_MPS2),
         velocity_mps: Vec3::new(30.48, 3.048, -0.3048),
         calibrated_airspeed_mps: 1852.0 / 36.0,
@@ -136,7 +152,7 @@ fn surfaces_at_full_travel_are_one() {
     outputs.actuators.rudder_right_rad = 20.0 / DEG_PER_RAD;
     outputs.actuators.flap_rad = 75.0 / DEG_PER_RAD;
     outputs.actuators.flaperon_rad = Pair { left: 13.8 / DEG_PER_RAD, right: -23.8 / DEG_PER_RAD };
-    let packet = NetFdm::from_outputs(&outputs);
+    let packet = sent(&outputs);
     assert!(near(packet.elevator_norm, -1.0));
     assert!(near(packet.rudder_norm, 1.0));
     assert!(near(packet.left_flap_norm, 1.0) && near(packet.right_flap_norm, 1.0));
@@ -150,11 +166,11 @@ fn wheels_are_nose_left_right() {
     outputs.actuators.gear_extension_norm = 0.5;
     outputs.landing_gear.nose = Leg { compression_m: 0.07, push_n: 0.0, ..Leg::default() };
     outputs.landing_gear.main.right = Leg { compression_m: 0.9, push_n: 1.0, ..Leg::default() };
-    let packet = NetFdm::from_outputs(&outputs);
+    let packet = sent(&outputs);
     assert_eq!(packet.wow.map(U32::get), [0, 0, 1]);
     assert!(packet.gear_pos_norm.iter().all(|&norm| near(norm, 0.5)));
     let [nose, left, right] = packet.gear_compression_norm;
-    assert!(near(nose, 0.2) && near(left, 0.0) && near(right, 1.0));
+    assert!(near(nose, 0.07 / (14.5 * 0.0254)) && near(left, 0.0) && near(right, 1.0));
 }
 
 #[test]
@@ -164,7 +180,7 @@ fn a_failed_engine_is_off_and_the_other_burns_the_fuel() {
     outputs.engines.available_w = 1e6;
     outputs.engines.power_w = Pair { left: 0.0, right: 5e5 };
     outputs.engines.fuel_flow_kg_per_s = 650.0 * 0.453_592_37 / 3600.0;
-    let packet = NetFdm::from_outputs(&outputs);
+    let packet = sent(&outputs);
     assert_eq!(packet.eng_state.map(U32::get), [0, 2, 0, 0]);
     assert!(near(packet.fuel_flow_gph[0], 0.0) && near(packet.fuel_flow_gph[1], 100.0));
     assert!(near(packet.rpm[0], 600.0) && near(packet.rpm[1], 600.0));
@@ -173,9 +189,8 @@ fn a_failed_engine_is_off_and_the_other_burns_the_fuel() {
 
 #[test]
 fn a_stalled_rotor_warns() {
-    let warning = |validity: Validity| {
-        NetFdm::from_outputs(&Outputs { validity, ..Outputs::default() }).stall_warning
-    };
+    let warning =
+        |validity: Validity| sent(&Outputs { validity, ..Outputs::default() }).stall_warning;
     assert!(near(warning(Validity::ROTOR_STALL), 1.0));
     assert!(near(warning(Validity::VORTEX_RING), 1.0));
     assert!(near(warning(Validity::SPEED | Validity::GEAR_BOTTOMED), 0.0));
@@ -210,14 +225,14 @@ fn flightgear_never_sees_what_is_not_a_number() {
         outputs.engines.power_w = Pair::both(odd);
         outputs.engines.fuel_flow_kg_per_s = odd;
         outputs.landing_gear.nose.compression_m = odd;
-        let packet = NetFdm::from_outputs(&outputs);
+        let packet = sent(&outputs);
         assert_eq!(NetFdm::parse(packet.bytes()), Ok(packet), "{odd}");
     }
 }
 
 #[test]
 fn what_was_sent_is_what_is_read() {
-    let packet = NetFdm::from_outputs(&Outputs::default());
+    let packet = sent(&Outputs::default());
     assert_eq!(NetFdm::parse(packet.bytes()), Ok(packet));
 }
 
@@ -257,4 +272,49 @@ fn numbers_that_are_not_finite_are_refused() {
     assert_eq!(error, Err(PacketError::NotFinite { field: "longitude_rad" }));
     let error = NetFdm::parse(&packet_with(152, &f32::NEG_INFINITY.to_be_bytes()));
     assert_eq!(error, Err(PacketError::NotFinite { field: "rpm" }));
+}
+
+#[test]
+fn an_engine_that_stops_gets_cold_and_loses_its_pressures() {
+    let mut outputs = Outputs::default();
+    outputs.air.temperature_k = 288.15;
+    outputs.engines.available_w = 1e6;
+    outputs.engines.power_w = Pair { left: 0.0, right: 9e5 };
+    let packet = sent(&outputs);
+    let of = |field: [F32; ENGINES_MAX]| [field[0].get(), field[1].get()];
+    assert!(near(packet.egt_degf[0], 59.0) && packet.egt_degf[1].get() > 900.0);
+    assert!(near(packet.oil_temp_degf[0], 59.0) && packet.oil_temp_degf[1].get() > 140.0);
+    for pressures in [of(packet.oil_px_psi), of(packet.fuel_px_psi)] {
+        assert!(pressures[0].abs() < 1e-6 && pressures[1] > 10.0, "{pressures:?}");
+    }
+}
+
+#[test]
+fn the_nose_wheel_casters_along_its_way_and_is_straight_in_the_air() {
+    let mut outputs =
+        Outputs { body_velocity_mps: Vec3::new(10.0, 5.0, 0.0), ..Outputs::default() };
+    assert!(near(sent(&outputs).nose_wheel_norm, 0.0));
+    outputs.landing_gear.nose.push_n = 1.0;
+    assert!(near(sent(&outputs).nose_wheel_norm, atan2(5.0, 10.0)));
+    outputs.body_velocity_mps = Vec3::new(-10.0, -5.0, 0.0);
+    assert!(near(sent(&outputs).gear_steer_norm[0], atan2(5.0, 10.0)), "backwards it trails");
+    outputs.body_velocity_mps = Vec3::new(0.1, 0.1, 0.0);
+    assert!(near(sent(&outputs).nose_wheel_norm, 0.0), "at rest");
+}
+
+#[test]
+fn between_two_packets_is_between_them_also_over_north_and_the_date_line() {
+    let at = |longitude_rad, heading_rad, height_m| {
+        let place = Geodetic { longitude_rad, height_m, ..Geodetic::default() };
+        let euler = Euler { heading_rad, ..Euler::default() };
+        sent(&Outputs { place, euler, ..Outputs::default() })
+    };
+    let (a, b) = (at(PI - 0.001, -0.02, 10.0), at(-PI + 0.003, 0.04, 20.0));
+    assert_eq!(NetFdm::between(&a, &b, 0.0), a);
+    let middle = NetFdm::between(&a, &b, 0.5);
+    assert!((middle.altitude_m.get() - 15.0).abs() < 1e-9);
+    assert!((f64::from(middle.psi_rad.get()) - 0.01).abs() < 1e-5, "{:?}", middle.psi_rad);
+    let beyond_deg = middle.longitude_deg().abs() - 180.0;
+    assert!((beyond_deg + 0.001 * DEG_PER_RAD).abs() < 1e-6, "{}", middle.longitude_deg());
+    assert_eq!(NetFdm::parse(middle.bytes()), Ok(middle));
 }

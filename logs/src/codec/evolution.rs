@@ -38,6 +38,11 @@ fn todays_name(path: &str) -> String {
     path.to_owned()
 }
 
+/// A log's layout by today's names.
+pub(crate) fn by_todays_names(theirs: &Layout) -> Layout {
+    theirs.renamed(todays_name)
+}
+
 /// How messages of a log's layout become today's struct: by the names of the fields.
 #[derive(Clone, Debug)]
 pub struct Mapping {
@@ -56,7 +61,7 @@ impl Mapping {
     /// When the struct is not recordable.
     pub fn to<T: Serialize + Default>(theirs: &Layout) -> Result<Self, LogError> {
         let ours = Layout::of::<T>()?;
-        let theirs = theirs.renamed(todays_name);
+        let theirs = by_todays_names(theirs);
         let places: BTreeMap<_, _> =
             theirs.numbers().iter().enumerate().map(|(i, n)| (n.path.as_str(), i)).collect();
         let source = |number: &Number| {

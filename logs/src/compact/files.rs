@@ -10,8 +10,11 @@ use mcap::{Attachment, Writer};
 use super::columns::{Taker, put};
 use super::{VERSION, VERSIONS_READ};
 use crate::LogError;
+use crate::channels::{Channel as ChannelOfOurs, Compacted};
 use crate::container::{Record, Schema};
-use crate::setup::Setup;
+use crate::evolution::by_todays_names;
+use crate::layout::Layout;
+use crate::setup::{Identity, Setup};
 
 /// The attachments as bytes; they are texts, and as attachments they would not be compressed. Then the
 /// channels: a tool that copies the compacted log leaves those out that have no message in it.
@@ -164,6 +167,40 @@ pub fn refuse_other_form(head: &Metadata) -> Result<(), LogError> {
     }
     let (what, theirs) = ("compacted form", theirs.to_string());
     Err(LogError::Version { what, theirs, ours: VERSION })
+}
+
+/// Refuses a log that has a channel, compacted in one of these ways, whose messages have not today's fields:
+/// they are made of today's structs.
+pub fn refuse_other_layout(
+    head: &[Record],
+    identity: &Identity,
+    hows: &[Compacted],
+) -> Result<(), LogError> {
+    let types = head.iter().filter_map(|record| match record {
+        Record::Schema(schema) => Some((schema.id, schema)),
+        _ => None,
+    });
+    let types: BTreeMap<u16, &Schema> = types.collect();
+    for record in head {
+        let Record::Channel(definition) = record else { continue };
+        let ours =
+            ChannelOfOurs::of(&definition.topic).filter(|ours| hows.contains(&ours.compacted));
+        let (Some(ours), Some(theirs)) = (ours, types.get(&definition.schema_id)) else { continue };
+        let kind = ours.message_type()?;
+        let layout = || std::str::from_utf8(&theirs.text).ok().and_then(Layout::parse);
+        let same = theirs.text == kind.text.as_bytes()
+            || kind.layout.is_some()
+                && layout().as_ref().map(by_todays_names) == kind.layout.as_deref().cloned();
+        if !same {
+            let get = |key| identity.get(key);
+            return Err(LogError::Layout {
+                topic: ours.topic,
+                format: get(Identity::FORMAT).into(),
+                program: format!("{} (commit {})", get("program"), get("commit")),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// What is wrong with a compacted log that has its checksums right.

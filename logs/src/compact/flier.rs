@@ -7,7 +7,7 @@ use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Inputs, Outputs, State, observe, step};
 
 use crate::channels::{Channel, ChannelId, Written};
-use crate::records::{InputsRecord, StateRecord};
+use crate::records::{InputsRecord, RestartRecord, StateRecord};
 use crate::setup::Setup;
 use crate::view::Shape;
 use crate::{LogError, cdr};
@@ -44,6 +44,8 @@ pub struct Flier {
     pub state: State,
     /// After the last tick, as it was flown.
     pub flown: Option<(State, Outputs)>,
+    /// What takes the place of the state in the tick under way.
+    restart: Option<State>,
     events: Vec<DeviceEvent>,
     inputs: InputsRecord,
     outputs: VecDeque<(Outputs, Attitude)>,
@@ -58,6 +60,7 @@ impl Flier {
             of,
             flown: None,
             state: State::default(),
+            restart: None,
             events: Vec::new(),
             inputs: InputsRecord::default(),
             outputs: VecDeque::with_capacity(OUTPUTS_KEPT),
@@ -69,6 +72,7 @@ impl Flier {
     pub fn begin(&mut self, state: State) {
         self.state = state;
         self.begun_tick = state.tick;
+        self.restart = None;
         self.events.clear();
         self.outputs.clear();
         self.flown = None;
@@ -83,6 +87,9 @@ impl Flier {
         match channel {
             ChannelId::Hardware => self.events.push(cdr::decode(message)?),
             ChannelId::Inputs => self.inputs = cdr::decode(message)?,
+            ChannelId::Restart => {
+                self.restart = Some(cdr::decode::<RestartRecord>(message)?.state);
+            }
             _ => {}
         }
         Ok(())
@@ -91,7 +98,8 @@ impl Flier {
     /// Flies the tick.
     pub fn fly(&mut self) {
         let inputs = Inputs { events: &self.events, world: self.inputs.world };
-        let flown = step(&self.of.aircraft, &self.state, &inputs);
+        let before = self.restart.take().unwrap_or(self.state);
+        let flown = step(&self.of.aircraft, &before, &inputs);
         self.events.clear();
         self.state = flown.0;
         let (_, outputs) = self.flown.insert(flown);

@@ -20,6 +20,7 @@ mod proof;
 mod source;
 
 pub use expand::expand;
+pub(crate) use flier::Flier;
 pub use flier::{AircraftOf, Flown};
 pub use pack::compact;
 pub(crate) use source::Expander;

@@ -11,7 +11,7 @@ use mcap::{Compression, WriteOptions, Writer};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
-use super::files::{attach, define, encode, facts, setup_of};
+use super::files::{attach, define, encode, facts, refuse_other_layout, setup_of};
 use super::flier::{AircraftOf, Flier, short_digest};
 use super::proof::prove;
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
@@ -24,20 +24,18 @@ use crate::setup::{CLOSING, CLOSING_MESSAGES, Identity, METADATA};
 use crate::{LogError, cdr};
 
 /// Compacts a log, and expands it again in memory: the same messages, files and facts come back, or there
-/// is no compacted log.
+/// is no compacted log. Whoever asked for it finishes the output.
 ///
 /// # Errors
-/// When `log` is not a whole flight log of this version, does not refly to the same bits, or `out`
+/// When `log` is not a whole flight log of this version, does not refly to the same bits, or `output`
 /// cannot be written. `keyframe_ticks` says how many ticks lie between two states that are kept.
 pub fn compact(
     log: &Path,
-    out: &Path,
-    force: bool,
+    output: &Output,
     keyframe_ticks: u64,
     aircraft_of: AircraftOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Copied, LogError> {
-    let output = Output::beside(out, force, &[log])?;
     let mut from = LogFile::open(log)?.with_fingerprint();
     // What comes before the first message.
     let mut head = Vec::new();
@@ -82,7 +80,6 @@ pub fn compact(
     let file = pack.to.into_inner().into_inner().map_err(std::io::IntoInnerError::into_error)?;
     let bytes = file.metadata()?.len();
     prove(log, output.unfinished(), aircraft_of)?;
-    output.finish()?;
     Ok(Copied { bytes_before: original.bytes, bytes, states: pack.states, same_file: None })
 }
 
@@ -125,7 +122,9 @@ impl Pack {
             .clone()
             .find(|record| record.name == METADATA)
             .ok_or_else(|| LogError::NotAFlight("no `tiltrotor` metadata".into()))?;
-        Identity(identity.metadata.clone()).refuse_other_versions()?;
+        let identity = Identity(identity.metadata.clone());
+        identity.refuse_other_versions()?;
+        refuse_other_layout(head, &identity, &[Compacted::Rows, Compacted::Reflown])?;
         let flown = aircraft_of(&setup_of(head)?)?;
         let (profile, library) = match head.first() {
             Some(Record::Header { profile, library }) => (profile.as_str(), library.as_str()),
@@ -241,7 +240,11 @@ impl Pack {
                 }
                 same.then_some(Op::View(channel.number() as u8))
             }
-            Some((_, Compacted::Kept)) | None => None,
+            Some((channel, Compacted::Kept)) => {
+                self.flier.takes(channel.id, data)?;
+                None
+            }
+            None => None,
         };
         self.block.ops.push(op.unwrap_or(Op::Plain));
         if op.is_none() {

@@ -7,15 +7,18 @@ use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
-use super::files::{broken, decode, form_of, refuse_other_form, setup_of};
+use super::files::{broken, decode, form_of, refuse_other_form, refuse_other_layout, setup_of};
 use super::flier::{AircraftOf, Flier, short_digest};
 use super::{HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
 use crate::container::checksums::add_message;
 use crate::container::{Compacted, LogFile, Record, RecordSource, Schema, stamped};
-use crate::records::{STATE, StateRecord};
+use crate::records::{RESTART, STATE, StateRecord};
 use crate::setup::{Identity, METADATA};
 use crate::{LogError, cdr};
+
+/// What is made of today's structs while a compacted log is read.
+const MADE_AGAIN: [How; 3] = [How::Rows, How::Reflown, How::Remade];
 
 /// A compacted log being read.
 #[derive(Default)]
@@ -29,6 +32,8 @@ pub(crate) struct Expander {
     across: bool,
     /// The log's flight model, or its aircraft file, is not for us: nothing is flown again.
     blind: bool,
+    /// Who flew.
+    identity: Identity,
     flier: Option<Flier>,
     /// The last recorded state's message, and the tick of the last state.
     keyframe: Vec<u8>,
@@ -142,6 +147,7 @@ impl Expander {
                 if !(self.blind && self.across) {
                     identity.refuse_other_versions()?;
                 }
+                self.identity = identity;
                 return Ok(true);
             }
             Record::Message(header, data) => {
@@ -217,6 +223,12 @@ impl Expander {
     fn unpack_files(&mut self, bytes: &[u8]) -> Result<(), LogError> {
         let head = decode(bytes)?;
         let setup = setup_of(&head)?;
+        if !self.blind {
+            match refuse_other_layout(&head, &self.identity, &MADE_AGAIN) {
+                Err(LogError::Layout { .. }) if self.across => self.blind = true,
+                refused => refused?,
+            }
+        }
         if let Some(aircraft_of) = self.aircraft_of.filter(|_| !self.blind) {
             match aircraft_of(&setup) {
                 Ok(flown) => self.flier = Some(Flier::new(flown)),
@@ -283,6 +295,10 @@ impl Expander {
             self.stand_at(&data)?;
             self.states += 1;
             self.reflown = false;
+        } else if Some(&header.channel_id) == self.ids.get(RESTART)
+            && let Some(flier) = &mut self.flier
+        {
+            flier.takes(ChannelId::Restart, &data)?;
         }
         *record = Record::Message(header, data);
         Ok(())

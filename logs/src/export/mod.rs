@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::{Kind, Layout};
-use crate::output;
+use crate::output::{self, hidden};
 use crate::records::STATE;
 use crate::view;
 use crate::{Ending, LogError, Message, Messages, OpenOptions};
@@ -166,6 +166,8 @@ pub fn export(
 struct Tables {
     folder: PathBuf,
     unfinished: PathBuf,
+    /// Says to others that it is being written.
+    _lock: File,
     form: Form,
     open: BTreeMap<String, OpenTable>,
 }
@@ -185,12 +187,10 @@ impl Drop for Tables {
 
 impl Tables {
     fn new(folder: &Path, form: Form) -> Result<Self, LogError> {
-        let unfinished = (0_u64..)
-            .map(|number| folder.join(format!(".unfinished-{}-{number}", std::process::id())))
-            .find(|path| !path.exists())
-            .unwrap_or_else(|| folder.join(".unfinished"));
-        fs::create_dir_all(&unfinished).map_err(|error| LogError::create(&unfinished, error))?;
-        Ok(Self { folder: folder.to_path_buf(), unfinished, form, open: BTreeMap::new() })
+        let failed = |error| LogError::create(folder, error);
+        fs::create_dir_all(folder).map_err(failed)?;
+        let (unfinished, lock) = hidden::folder_in(folder).map_err(failed)?;
+        Ok(Self { folder: folder.into(), unfinished, _lock: lock, form, open: BTreeMap::new() })
     }
 
     /// Where a flight's part of a table belongs.

@@ -31,6 +31,12 @@ impl Told {
         }
     }
 
+    /// Another state took the place of the one that was flown.
+    pub(super) fn restart(&mut self, state: &State) {
+        self.weight_on_wheels = state.plant.weight_on_wheels;
+        self.before = Observed { on_ground: self.weight_on_wheels != 0, ..Observed::default() };
+    }
+
     /// What the wheels and the hull did in a tick.
     pub(super) fn look(
         &mut self,

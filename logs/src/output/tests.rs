@@ -166,3 +166,25 @@ fn what_is_no_file_is_written_as_it_is_or_refused() {
     let full = Output::beside(Path::new("/dev/full"), true, &[]).expect("a device");
     assert!(full.file().expect("the file").write_all(b"x").is_err());
 }
+
+#[test]
+fn what_a_killed_program_left_goes_away_and_what_is_being_written_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("flight.mcap");
+    let left = folder.path().join(".tiltrotor-1-0.unfinished");
+    fs::write(&left, "half").expect("a file");
+    let tables = folder.path().join(".tiltrotor-1-1.unfinished");
+    fs::create_dir(&tables).expect("a folder");
+    fs::write(tables.join(".lock~"), "").expect("a file");
+    fs::write(tables.join("state"), "half").expect("a file");
+    let other = folder.path().join(".theirs-1.unfinished");
+    fs::write(&other, "theirs").expect("a file");
+    let mut flight = Output::flight(&path, false).expect("claimed");
+    put(&flight, "grow");
+    assert!(!left.exists() && !tables.exists());
+    hidden::sweep(folder.path());
+    put(&flight, "ing");
+    flight.begun().expect("begun");
+    assert_eq!(text(&path), "growing");
+    assert_eq!(hidden(folder.path()), [other]);
+}

@@ -16,7 +16,8 @@ use crate::devices::DeviceIdentity;
 use crate::evolution::{Difference, Mappings};
 use crate::open::{OpenOptions, source};
 use crate::records::{
-    Chain, EventRecord, InputsRecord, STATE, StateRecord, TimingRecord, first_digest,
+    Chain, EventRecord, InputsRecord, RESTART, RestartRecord, STATE, StateRecord, TimingRecord,
+    first_digest,
 };
 use crate::setup::{CLOSING, Identity, METADATA, Setup};
 use crate::view::{self, Remark};
@@ -25,6 +26,8 @@ use crate::{LogError, cdr};
 /// One tick as recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tick {
+    /// What took the place of the state before it, if anything did.
+    pub restart: Option<Box<RestartRecord>>,
     /// Device events, in order.
     pub events: Vec<DeviceEvent>,
     /// The world.
@@ -38,6 +41,13 @@ pub struct Tick {
     /// The whole `/state` message, when its layout is not today's. What it lacks is 0 above, until
     /// [`FlightReader::fill`] knows better.
     pub foreign: Option<Vec<u8>>,
+}
+
+impl Tick {
+    /// The state with which its step begins: the one after the tick before, or what took its place.
+    pub fn begins_with(&self, before: &State) -> State {
+        self.restart.as_ref().map_or(*before, |restart| restart.state)
+    }
 }
 
 /// A flight being read.
@@ -206,6 +216,7 @@ impl FlightReader {
             return Ok(None);
         }
         self.tick.events.clear();
+        self.tick.restart = None;
         self.has_inputs = false;
         while self.stream.advance() {
             if !self.take_metadata(false) && self.take_message()? {
@@ -228,6 +239,15 @@ impl FlightReader {
         let (mappings, layout) = (&mut self.mappings, channel.foreign_layout());
         match ours.id {
             ChannelId::Hardware => self.tick.events.push(mappings.decode(ours, layout, data)?),
+            ChannelId::Restart => {
+                let restart: RestartRecord = mappings.decode(ours, layout, data)?;
+                let tick = restart.state.tick;
+                if tick != self.last.0 || self.tick.restart.is_some() {
+                    let what = format!("a message of {RESTART} for tick {tick}, out of its place");
+                    return Err(LogError::Order(what));
+                }
+                self.tick.restart = Some(Box::new(restart));
+            }
             ChannelId::Inputs => {
                 self.tick.inputs = mappings.decode(ours, layout, data)?;
                 if std::mem::replace(&mut self.has_inputs, true) {
@@ -310,7 +330,7 @@ impl FlightReader {
 
     fn close_tick(&mut self) -> Result<(), LogError> {
         let Record::Message(_, data) = &self.stream.record else { return Ok(()) };
-        let Tick { events, inputs, record, state_message, chained, foreign } = &mut self.tick;
+        let Tick { events, inputs, record, state_message, chained, foreign, .. } = &mut self.tick;
         let tick = record.state.tick;
         if !self.has_inputs {
             return Err(LogError::Order(format!("tick {tick} has no inputs")));

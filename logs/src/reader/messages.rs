@@ -10,7 +10,7 @@ use super::ending::Ending;
 use super::stream::{FileChannel, Stream};
 use crate::LogError;
 use crate::channels::Channel;
-use crate::container::Record;
+use crate::container::{Record, stamped};
 use crate::fields::Field;
 use crate::layout::Layout;
 use crate::open::{OpenOptions, source};
@@ -30,6 +30,8 @@ pub struct Messages {
     until_tick: u64,
     /// As far as it was wanted, all was read; the rest was not looked at.
     is_read: bool,
+    /// The stream has a message that was not handed out yet.
+    is_held: bool,
 }
 
 /// One message.
@@ -51,7 +53,7 @@ impl Messages {
     /// When the file cannot be read.
     pub fn open(path: &Path, options: OpenOptions) -> Result<Self, LogError> {
         let header = MessageHeader { channel_id: 0, sequence: 0, log_time: 0, publish_time: 0 };
-        Ok(Self {
+        let mut messages = Self {
             stream: Stream::over(source(path, options)?),
             message: Message { channel: Arc::default(), time_ns: 0, data: Vec::new(), header },
             facts: Vec::new(),
@@ -59,7 +61,28 @@ impl Messages {
             from_tick: 0,
             until_tick: u64::MAX,
             is_read: false,
-        })
+            is_held: false,
+        };
+        // The channels are defined before the first message; what is not for this program says so.
+        while !messages.stream.has_channels() && messages.stream.advance() {
+            messages.is_held = messages.take_beside();
+        }
+        messages.stream.refused.take().map_or(Ok(messages), Err)
+    }
+
+    /// Takes what was read if it is no message; `true` when it is one.
+    fn take_beside(&mut self) -> bool {
+        match &mut self.stream.record {
+            Record::Message(..) => return true,
+            Record::Metadata(record) => self
+                .facts
+                .push((std::mem::take(&mut record.name), std::mem::take(&mut record.metadata))),
+            Record::Attachment(header, data) => {
+                self.files.push((std::mem::take(&mut header.name), std::mem::take(data)));
+            }
+            _ => {}
+        }
+        false
     }
 
     /// The metadata records that came so far: name, keys and values.
@@ -79,37 +102,32 @@ impl Messages {
     /// When the log cannot be read.
     pub fn limit(&mut self, from_tick: u64, until_tick: u64) -> Result<(), LogError> {
         (self.from_tick, self.until_tick) = (from_tick, until_tick);
-        // The channels are defined before the first message.
-        while !self.stream.has_channels() && self.stream.advance() {}
-        if from_tick > 0 { self.stream.seek(from_tick) } else { Ok(()) }
+        if from_tick == 0 {
+            return Ok(());
+        }
+        self.is_held = false;
+        self.stream.seek(from_tick)
     }
 
     /// Reads the next message; `None` when there is none any more.
     pub fn next_message(&mut self) -> Option<&Message> {
-        while self.stream.advance() {
-            match &mut self.stream.record {
-                Record::Message(header, data) => {
-                    let tick = header.log_time / engine::STEP_NS;
-                    // What viewers draw is written after the states, but not ten seconds after.
-                    if tick > self.until_tick.saturating_add(PAST_TICKS) {
-                        self.is_read = true;
-                        return None;
-                    }
-                    if (self.from_tick..=self.until_tick).contains(&tick) {
-                        let message = &mut self.message;
-                        (message.header, message.time_ns) = (*header, header.log_time);
-                        std::mem::swap(&mut message.data, data);
-                        message.channel.clone_from(&self.stream.channel);
-                        return Some(&self.message);
-                    }
-                }
-                Record::Metadata(record) => self
-                    .facts
-                    .push((std::mem::take(&mut record.name), std::mem::take(&mut record.metadata))),
-                Record::Attachment(header, data) => {
-                    self.files.push((std::mem::take(&mut header.name), std::mem::take(data)));
-                }
-                _ => {}
+        while std::mem::take(&mut self.is_held) || self.stream.advance() {
+            if !self.take_beside() {
+                continue;
+            }
+            let Record::Message(header, data) = &mut self.stream.record else { continue };
+            let tick = header.log_time / engine::STEP_NS;
+            // What viewers draw is written after the states, but not ten seconds after.
+            if tick > self.until_tick.saturating_add(PAST_TICKS) {
+                self.is_read = true;
+                return None;
+            }
+            if (self.from_tick..=self.until_tick).contains(&tick) {
+                let message = &mut self.message;
+                (message.header, message.time_ns) = (*header, header.log_time);
+                std::mem::swap(&mut message.data, data);
+                message.channel.clone_from(&self.stream.channel);
+                return Some(&self.message);
             }
         }
         None
@@ -141,9 +159,14 @@ impl Message {
         self.channel.id.map(Into::into)
     }
 
-    /// Whether its fields are those of today.
+    /// Whether it is what today's definition of its channel says.
     pub(crate) fn is_todays(&self) -> bool {
-        self.channel.foreign_layout().is_none()
+        self.channel.is_todays()
+    }
+
+    /// Whether it carries the times and the number that our writer gives the messages of a tick.
+    pub(crate) fn is_stamped(&self, tick: u64) -> bool {
+        self.header == stamped(self.header.channel_id, tick)
     }
 
     /// What its numbers are called, by the log's own schema; `None` on channels for viewers.

@@ -30,6 +30,14 @@ impl FileChannel {
     pub fn foreign_layout(&self) -> Option<&Layout> {
         self.layout.as_deref().filter(|_| !self.todays)
     }
+
+    /// Whether its messages are what today's definition says, number by number where they are numbers.
+    pub fn is_todays(&self) -> bool {
+        let ours = self.id.and_then(|id| <&Channel>::from(id).message_type().ok());
+        let same =
+            |layout: &Layout| ours.is_some_and(|ours| ours.layout.as_deref() == Some(layout));
+        self.todays || self.layout.as_deref().is_some_and(same)
+    }
 }
 
 /// Records of a log.
@@ -117,7 +125,10 @@ impl Stream {
             LogError::Damaged(why) | LogError::NotAFlight(why) => Ending::Damaged(why),
             error => Ending::Damaged({
                 let why = error.to_string();
-                let refused = matches!(error, LogError::Version { .. } | LogError::Setup(_));
+                let refused = matches!(
+                    error,
+                    LogError::Version { .. } | LogError::Layout { .. } | LogError::Setup(_)
+                );
                 self.refused = Some(error).filter(|_| refused);
                 why
             }),

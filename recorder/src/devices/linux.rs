@@ -17,6 +17,11 @@ use evdev::{EventType, InputEvent, PropType};
 use inotify::{Inotify, WatchMask};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
+use thread_priority::unix::{
+    RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy,
+    thread_native_id,
+};
+use thread_priority::{ThreadPriority, ThreadPriorityValue};
 use udev::MonitorBuilder;
 
 use super::found::{Axis, Found, Ignored, Survey, Why, kind};
@@ -30,6 +35,25 @@ const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
 /// `SYN_REPORT` and `SYN_DROPPED`.
 const REPORT: u16 = 0;
 const DROPPED: u16 = 3;
+
+/// Asks for real-time scheduling of this thread, one above the loop's, so that an event waits for nobody;
+/// returns what was not granted, in words.
+pub fn claim_priority() -> Vec<String> {
+    /// The loop has 40.
+    const PRIORITY: u8 = 41;
+    let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+    let granted = ThreadPriorityValue::try_from(PRIORITY).is_ok_and(|priority| {
+        let priority = ThreadPriority::Crossplatform(priority);
+        set_thread_priority_and_policy(thread_native_id(), priority, fifo).is_ok()
+    });
+    if granted {
+        return Vec::new();
+    }
+    vec![format!(
+        "no real-time scheduling (SCHED_FIFO) of the input thread: events may wait under load; \
+         `ulimit -r {PRIORITY}` or CAP_SYS_NICE grants it"
+    )]
+}
 
 /// All devices that are there.
 pub fn survey() -> Survey {

@@ -36,7 +36,7 @@ pub const SHIPPED: &[Shipped] = shipped! {
     "joystick.toml", true, "any other stick with a throttle slider: ST290, Extreme 3D and their like";
     "radio.toml", true, "an RC transmitter with OpenTX or EdgeTX as a joystick";
     "gamepad.toml", true, "any gamepad: triggers are pedals, the left stick's height is the lever's speed";
-    "keyboard.toml", false, "a keyboard, where this user may read it";
+    "evdev-keyboard.toml", false, "a keyboard, where this user may read it";
 };
 
 /// The map of all that are flown by themselves.

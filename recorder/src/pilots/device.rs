@@ -19,8 +19,21 @@ pub struct VirtualDevice {
 impl VirtualDevice {
     /// The device called [`DEVICE`], if the map has it.
     pub fn of(map: &cockpit::Params) -> Option<Self> {
-        let number = map.device.iter().position(|device| device.name == DEVICE)?;
-        Some(Self { number: number as u64, device: map.device[number].clone(), sent: Vec::new() })
+        Self::named(map, DEVICE)
+    }
+
+    /// The device of that name, if the map has it.
+    pub fn named(map: &cockpit::Params, name: &str) -> Option<Self> {
+        let number = map.device.iter().position(|device| device.name == name)?;
+        let device = map.device[number].clone();
+        // No memory is asked for in flight.
+        let sent = Vec::with_capacity(device.axis.len());
+        Some(Self { number: number as u64, device, sent })
+    }
+
+    /// Forgets where the axes were sent to: something else has moved the controls.
+    pub fn forget(&mut self) {
+        self.sent.clear();
     }
 
     /// The controls that it has an axis for, as the engine lists them.

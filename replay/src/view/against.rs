@@ -79,7 +79,8 @@ pub fn draw_against(log: &Path, other: Other, saved: &Output) -> Result<Drawn, D
             Beside::Reflown(reflown) => {
                 if let Some((events, inputs)) = &at.led {
                     let inputs = Inputs { events, world: inputs.world };
-                    **reflown = step(&recorded.aircraft, reflown, &inputs).0;
+                    let before = at.restart.as_ref().map_or(**reflown, |restart| restart.state);
+                    **reflown = step(&recorded.aircraft, &before, &inputs).0;
                 }
                 Some((**reflown, world))
             }

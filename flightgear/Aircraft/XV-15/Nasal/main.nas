@@ -1,0 +1,1 @@
+# What the XV-15 does beside showing what is sent.

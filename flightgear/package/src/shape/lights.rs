@@ -1,0 +1,106 @@
+//! Lights: position lights, beacon, strobes, landing light.
+
+use engine::aircraft::Params as Aircraft;
+
+use super::{nacelle, ring};
+use crate::ac3d::{Part, material};
+use crate::mesh::{Mesh, Point, add};
+use crate::paint;
+
+/// A light with the halo that is seen around it.
+pub struct Light {
+    /// Of its part; the halo's has `halo.` before it.
+    pub name: &'static str,
+    /// Where it is.
+    pub at_m: Point,
+    material: usize,
+    radius_m: f64,
+}
+
+/// All but the landing light. Those on the nacelles tilt with them.
+pub fn lights(aircraft: &Aircraft) -> Vec<Light> {
+    let light = |name, at_m, material, radius_m| Light { name, at_m, material, radius_m };
+    let fins = &aircraft.display.vertical_stabilizers;
+    let tip = fins.section_m.last().map_or([0.0; 3], |row| *row);
+    let tip_m = |side: f64| [tip[2] + 0.3 * tip[1], side * fins.buttline_m, tip[0] + 0.02];
+    let on_nacelle = |side: f64| {
+        let pivot = nacelle::pivot_m(aircraft, side);
+        add(pivot, [0.0, side * 0.49, -0.1])
+    };
+    let end = aircraft.display.fuselage.section_m.last().map_or(15.3, |row| row[0]);
+    vec![
+        light("nav.left", on_nacelle(-1.0), material::LIGHT_RED, 0.05),
+        light("nav.right", on_nacelle(1.0), material::LIGHT_GREEN, 0.05),
+        light("nav.tail", [end + 0.01, 0.0, 2.42], material::LIGHT_WHITE, 0.045),
+        light("beacon", [9.3, 0.0, 2.53], material::LIGHT_RED, 0.06),
+        light("strobe.left", tip_m(-1.0), material::LIGHT_WHITE, 0.04),
+        light("strobe.right", tip_m(1.0), material::LIGHT_WHITE, 0.04),
+    ]
+}
+
+/// The landing light under the nose.
+pub const LANDING_M: Point = [4.75, 0.0, 0.56];
+
+/// Lamps, halos, and the landing light's beam.
+pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for light in lights(aircraft) {
+        let mut lamp = Mesh::default();
+        let [aft, right, up] = light.at_m;
+        let r = light.radius_m;
+        let circle = |part: f64, x: f64| {
+            ring(12, |s, c| [aft + x * r, right + part * r * s, up + part * r * c])
+        };
+        lamp.body(
+            light.material,
+            &[
+                circle(0.3, -1.0),
+                circle(0.8, -0.6),
+                circle(1.0, 0.0),
+                circle(0.8, 0.6),
+                circle(0.3, 1.0),
+            ],
+        );
+        parts.push(Part::new(light.name, lamp).smooth(80.0));
+        parts.push(halo(&light));
+    }
+    let [aft, right, up] = LANDING_M;
+    let lamp = ring(16, |s, c| [aft - 0.05 + 0.06 * c, right + 0.09 * s, up - 0.02 + 0.05 * c]);
+    let mut mesh = Mesh::default();
+    mesh.face(material::LIGHT_WHITE, &lamp);
+    parts.push(Part::new("landing.lamp", mesh.two_sided()));
+    parts.push(beam());
+    parts
+}
+
+/// A square that is turned to the eye.
+fn halo(light: &Light) -> Part {
+    let [aft, right, up] = light.at_m;
+    let half = 9.0 * light.radius_m;
+    let mut mesh = Mesh::default();
+    mesh.face(
+        light.material,
+        &[
+            [aft, right - half, up - half],
+            [aft, right + half, up - half],
+            [aft, right + half, up + half],
+            [aft, right - half, up + half],
+        ],
+    );
+    let mesh = mesh
+        .two_sided()
+        .textured(|[_, y, z]| [0.5 + 0.5 * (y - right) / half, 0.5 + 0.5 * (z - up) / half]);
+    Part::new(format!("halo.{}", light.name), mesh).with_texture(paint::HALO)
+}
+
+/// A faint cone ahead and down.
+fn beam() -> Part {
+    let [aft, right, up] = LANDING_M;
+    let circle =
+        |out: f64, r: f64| ring(20, |s, c| [aft - out, right + r * s, up - 0.30 * out + r * c]);
+    let rings = [circle(0.1, 0.08), circle(14.0, 2.2)];
+    let mut mesh = Mesh::default();
+    mesh.skin(material::BEAM, &rings);
+    let mesh = mesh.two_sided().textured(|[x, ..]| [0.5, 0.5 + 0.49 * (aft - x) / 14.0]);
+    Part::new("landing.beam", mesh).with_texture(paint::HALO)
+}

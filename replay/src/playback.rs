@@ -1,0 +1,232 @@
+//! A log being shown: where it stands, how fast it goes, and what there is to be seen in between.
+//!
+//! Whoever shows it asks for a frame every 4 ms of its own time, the interval of live flight; how far the
+//! flight goes on in a frame is the speed. Below real time a frame lies between two ticks, and shows what
+//! lies between them: for display only, the flight itself knows ticks.
+
+use std::path::{Path, PathBuf};
+
+use engine::inputs::World;
+use engine::{Outputs, observe};
+use logs::LogError;
+
+use crate::refly::{Reflight, Reflown, ReflyOptions, ReplayError, Window};
+
+/// What is asked of a log being shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Command {
+    /// Stand still, or go on.
+    Pause(bool),
+    /// So many ticks forward, or back, and stand still there.
+    Step(i64),
+    /// To that tick, going on or standing still as before.
+    Seek(u64),
+    /// So many times real time.
+    Speed(f64),
+}
+
+/// What there was to be seen after a tick.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Moment {
+    /// Of the aircraft.
+    pub outputs: Outputs,
+    /// The world of that tick.
+    pub world: World,
+}
+
+/// What a frame shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// The tick before it.
+    pub before: &'a Moment,
+    /// The tick at it, or after it.
+    pub after: &'a Moment,
+    /// How far it is from the one to the other; 1 at the tick itself.
+    pub part: f64,
+}
+
+/// A log being shown.
+pub struct Playback {
+    /// The log being reflown.
+    pub flight: Reflight,
+    path: PathBuf,
+    options: ReflyOptions,
+    before: Moment,
+    after: Moment,
+    /// Tick at which speed or place were changed last.
+    base_tick: f64,
+    /// Frames since then.
+    frames: u64,
+    speed: f64,
+    paused: bool,
+    /// The log, or the window, is over.
+    ended: bool,
+    jumped: bool,
+}
+
+impl Playback {
+    /// Opens a log where the window begins.
+    ///
+    /// # Errors
+    /// As [`Reflight::open`].
+    pub fn open(path: &Path, options: &ReflyOptions, speed: f64) -> Result<Self, ReplayError> {
+        let flight = Reflight::open(path, options)?;
+        Ok(Self {
+            base_tick: flight.state.tick as f64,
+            flight,
+            path: path.to_path_buf(),
+            options: *options,
+            before: Moment::default(),
+            after: Moment::default(),
+            frames: 0,
+            speed,
+            paused: false,
+            ended: false,
+            jumped: false,
+        })
+    }
+
+    /// Where it stands, in ticks.
+    pub fn tick(&self) -> f64 {
+        self.base_tick + self.speed * self.frames as f64
+    }
+
+    /// Whether it stands still.
+    pub fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    /// Times real time.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Whether ticks were left out or shown again: then what was reflown is not the whole of it.
+    pub fn has_jumped(&self) -> bool {
+        self.jumped
+    }
+
+    /// Does what is asked; `watch` is shown every tick that is reflown for it.
+    ///
+    /// # Errors
+    /// When the log's messages do not make a flight.
+    pub fn obey(
+        &mut self,
+        command: Command,
+        watch: &mut impl FnMut(&Reflown<'_>),
+    ) -> Result<(), ReplayError> {
+        let shown = self.after.outputs.tick.max(self.flight.state.tick);
+        match command {
+            Command::Pause(paused) => {
+                self.anchor(self.tick());
+                self.paused = paused;
+            }
+            Command::Speed(speed) => {
+                self.anchor(self.tick());
+                self.speed = speed;
+            }
+            Command::Step(ticks) => {
+                self.paused = true;
+                // From between two ticks the nearest ones are those on either side.
+                let from = if ticks < 0 { self.tick().ceil() } else { self.tick().floor() };
+                self.go_to((from as u64).saturating_add_signed(ticks), shown, watch)?;
+            }
+            Command::Seek(tick) => self.go_to(tick, shown, watch)?,
+        }
+        Ok(())
+    }
+
+    /// The next frame; `None` when the log or the window is over. `watch` is shown every tick that is
+    /// reflown for it.
+    ///
+    /// # Errors
+    /// When the log's messages do not make a flight.
+    pub fn frame(
+        &mut self,
+        watch: &mut impl FnMut(&Reflown<'_>),
+    ) -> Result<Option<Frame<'_>>, ReplayError> {
+        if self.ended {
+            return Ok(None);
+        }
+        if !self.paused {
+            self.frames += 1;
+        }
+        let tick = self.tick();
+        while (self.after.outputs.tick as f64) < tick {
+            if self.fly(watch)?.is_none() {
+                // What was flown past the last frame is still to be shown.
+                let last = self.flight.state.tick as f64;
+                self.anchor(last);
+                self.ended = true;
+                let shown = tick - self.speed >= last;
+                return Ok((!shown && last > 0.0).then(|| self.shown()));
+            }
+        }
+        Ok(Some(self.shown()))
+    }
+
+    /// What is to be seen now.
+    pub fn shown(&self) -> Frame<'_> {
+        let part = self.tick() - (self.after.outputs.tick as f64 - 1.0);
+        // Before the first tick, and where it was stopped: what there is.
+        let part = if (0.0..1.0).contains(&part) { part } else { 1.0 };
+        Frame { before: &self.before, after: &self.after, part }
+    }
+
+    /// Counts frames from here on.
+    fn anchor(&mut self, tick: f64) {
+        self.base_tick = tick;
+        self.frames = 0;
+    }
+
+    /// Goes to a tick, as far as the window goes: forward by flying there, back by opening the log anew.
+    fn go_to(
+        &mut self,
+        tick: u64,
+        shown: u64,
+        watch: &mut impl FnMut(&Reflown<'_>),
+    ) -> Result<(), ReplayError> {
+        let first = self.options.window.from_tick.unwrap_or(0).saturating_add(1);
+        let tick = tick.max(first);
+        // A second of flight is sooner flown than looked up.
+        if tick < shown || tick > shown + 250 {
+            let from_tick = Some(tick - 1);
+            let window = Window { from_tick, clamped: true, ..self.options.window };
+            match Reflight::open(&self.path, &ReflyOptions { window, ..self.options }) {
+                Ok(flight) => {
+                    self.flight = flight;
+                    (self.before, self.after) = Default::default();
+                    self.jumped = true;
+                }
+                // Beyond the end of a log that does not say where that is: as far as it goes.
+                Err(ReplayError::Log(LogError::Outside { .. })) if tick > shown => {}
+                Err(error) => return Err(error),
+            }
+        }
+        self.ended = false;
+        while self.after.outputs.tick < tick {
+            if self.fly(watch)?.is_none() {
+                break;
+            }
+        }
+        self.anchor(self.after.outputs.tick as f64);
+        Ok(())
+    }
+
+    /// Flies a tick; `None` at the end.
+    fn fly(&mut self, watch: &mut impl FnMut(&Reflown<'_>)) -> Result<Option<()>, ReplayError> {
+        let first = self.after.outputs.tick == 0;
+        let state = self.flight.state;
+        let Some(reflown) = self.flight.next_tick()? else { return Ok(None) };
+        let world = reflown.recorded.inputs.world;
+        let moment = Moment { outputs: *reflown.outputs, world };
+        watch(&reflown);
+        self.flight.reader.forget();
+        self.before = self.after;
+        if first {
+            self.before = Moment { outputs: observe(&self.flight.aircraft, &state, &world), world };
+        }
+        self.after = moment;
+        Ok(Some(()))
+    }
+}
