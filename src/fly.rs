@@ -1,5 +1,7 @@
 //! `tiltrotor fly`.
 
+mod hardware;
+
 use std::fs;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -50,7 +52,8 @@ pub struct Args {
     /// Fly with FlightGear's own stick, keyboard and mouse
     #[arg(long)]
     flightgear_controls: bool,
-    /// Cockpit map for --stick (a built-in one without)
+    /// Cockpit map for --stick: a file, or the name of a shipped one (without: of the shipped ones
+    /// those for what is plugged in)
     #[arg(long, value_name = "FILE", requires = "stick")]
     map: Option<PathBuf>,
     #[command(flatten)]
@@ -234,6 +237,8 @@ pub struct Plan {
     pipe: Option<fs::File>,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
+    /// What the crew calls its devices.
+    crew: hardware::Named,
     /// Where the keys go.
     orders: Option<Orders>,
     /// Whether there is a panel, or a line of progress.
@@ -287,6 +292,7 @@ impl Plan {
         Ok(Self {
             pipe,
             phases: Vec::new(),
+            crew: hardware::Named::default(),
             orders: None,
             panel: false,
             linked,
@@ -426,21 +432,9 @@ impl Plan {
         Ok(())
     }
 
-    #[cfg(feature = "sticks")]
     fn plug_in(&mut self, map: &mut cockpit::Params, path: Option<&Path>) -> Result<()> {
-        let (name, text) = text_or(path, "stick.toml", aircraft::STICK_MAP)?;
-        *map = aircraft::cockpit(&name, &text)?;
-        let sticks = recorder::sticks::Sticks::start(map)?;
-        for (number, name) in &sticks.found {
-            complain!("device {number}: {name}");
-        }
-        self.flight.sticks = Some(sticks);
+        self.crew = hardware::plug_in(&mut self.flight, map, path)?;
         Ok(())
-    }
-
-    #[cfg(not(feature = "sticks"))]
-    fn plug_in(&mut self, _: &mut cockpit::Params, _: Option<&Path>) -> Result<()> {
-        bail!("this program was built without `sticks`: build it with the default features")
     }
 
     /// Flies with the panel, or with a line of progress on a terminal.
@@ -452,7 +446,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, .. } = self;
+        let Self { flight, pipe: _pipe, phases, crew, .. } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
@@ -463,6 +457,9 @@ impl Plan {
                 bar.tick();
                 for warning in warnings(&told, &now) {
                     bar.suspend(|| complain!("WARNING: {warning}"));
+                }
+                for line in crew.lines(&told, &now) {
+                    bar.suspend(|| complain!("{line}"));
                 }
                 told = now;
             }
@@ -479,7 +476,7 @@ impl Plan {
     fn fly_with_panel(self) -> Result<Landing> {
         let progress = Progress::default();
         progress.stop_on_signals()?;
-        let Self { flight, pipe: _pipe, phases, orders, .. } = self;
+        let Self { flight, pipe: _pipe, phases, orders, crew, .. } = self;
         let verdict = flight
             .real_time
             .map_or_else(String::new, |wanted| check_clock(wanted, CLOCK_CHECK).verdict());
@@ -491,7 +488,7 @@ impl Plan {
             envelope: aircraft.envelope.clone(),
             phases,
             verdict,
-            controls: controls::lines(&aircraft.cockpit),
+            controls: controls::lines(&aircraft.cockpit, crew.names()),
             keys_fly: orders.is_some(),
         };
         let panel = Panel {
@@ -547,16 +544,11 @@ fn reposition(name: &str, text: &str, aircraft: &Aircraft) -> Result<Restart> {
 
 /// Says what moves the aircraft.
 fn say_controls(args: &Args) -> Result<Status> {
-    let mut map = cockpit::Params::default();
-    if args.stick || args.map.is_some() {
-        let (name, text) = text_or(args.map.as_deref(), "stick.toml", aircraft::STICK_MAP)?;
-        map = aircraft::cockpit(&name, &text)?;
+    if args.stick {
+        hardware::say_controls(args.map.as_deref())?;
     }
-    if args.keyboard || map.device.is_empty() {
-        map.device.extend(aircraft::cockpit("keyboard.toml", aircraft::KEYBOARD_MAP)?.device);
-    }
-    for line in controls::lines(&map) {
-        say!("{line}");
+    if args.keyboard || !args.stick {
+        controls::keyboard().iter().for_each(|line| say!("{line}"));
     }
     Ok(Status::Done)
 }

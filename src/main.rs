@@ -7,6 +7,7 @@ mod claim;
 mod condition;
 mod controls;
 mod demo;
+mod devices;
 mod diff;
 mod doctor;
 mod flightgear;
@@ -18,6 +19,8 @@ mod linearize;
 mod link_args;
 mod log;
 mod made;
+#[cfg(feature = "sticks")]
+mod maps;
 mod numbers;
 mod panel;
 mod replay_live;
@@ -49,6 +52,8 @@ struct Cli {
 enum Command {
     /// Fly in real time (or --fast) with a stick, a pilot model or a script.
     Fly(fly::Args),
+    /// Sticks, throttles, pedals and gamepads: what is there, what is flown with, a new map.
+    Devices(devices::Args),
     /// Refly a log, live in FlightGear.
     Replay(replay_live::Args),
     /// Do logs refly to the same bits?
@@ -111,6 +116,7 @@ fn unwritten(error: &std::io::Error) -> Status {
 fn run(command: Command) -> anyhow::Result<Status> {
     match command {
         Command::Fly(args) => fly::run(&args),
+        Command::Devices(args) => devices::run(&args),
         Command::Replay(args) => replay_live::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Diff(args) => diff::run(&args),

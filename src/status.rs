@@ -30,6 +30,7 @@ use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusa
 const VERBS: &[(&str, &[Status])] = &[
     ("fly", &[Done, Unusable, CutShort]),
     ("flightgear", &[Done, Unusable]),
+    ("devices", &[Done, Unusable]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
     ("verify", &[Done, Differs, Unusable, NeverClosed, Compared]),
