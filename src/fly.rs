@@ -29,6 +29,7 @@ use crate::ground::{self, Whose};
 use crate::link_args::{LinkArgs, Linked};
 use crate::panel::{Cockpit, Panel};
 use crate::status::Status;
+use crate::texts::{name_of, read, text_or};
 use crate::{condition, controls, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
@@ -595,20 +596,4 @@ fn warnings(told: &Snapshot, now: &Snapshot) -> Vec<String> {
 fn pilot_names() -> String {
     let names: Vec<_> = PILOTS.iter().map(|(name, what)| format!("{name}: {what}")).collect();
     names.join("; ")
-}
-
-/// The text of a file, or the built-in one of that name.
-pub fn text_or(path: Option<&Path>, name: &str, built_in: &str) -> Result<(String, String)> {
-    match path {
-        Some(path) => Ok((name_of(path), read(path)?)),
-        None => Ok((name.to_string(), built_in.to_string())),
-    }
-}
-
-fn name_of(path: &Path) -> String {
-    path.display().to_string()
-}
-
-fn read(path: &Path) -> Result<String> {
-    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
 }

@@ -26,6 +26,7 @@ mod panel;
 mod replay_live;
 mod report;
 mod status;
+mod texts;
 mod timing;
 mod trim;
 mod verify;
