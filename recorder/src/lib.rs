@@ -10,6 +10,8 @@ mod crew;
 pub mod debrief;
 mod end;
 mod flight;
+pub mod flightgear_controls;
+pub mod ground;
 mod hands;
 pub mod keyboard;
 mod landing;

@@ -6,6 +6,8 @@
 // Each test file is a program of its own and uses its part.
 #![allow(dead_code)]
 
+pub mod flightgear;
+
 use std::collections::VecDeque;
 use std::fmt::Write as _;
 use std::fs;
