@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use common::{
-    Forgery, INCOMPLETE, OK, all, chain_anew, flip_state_bit, folder, hover, place_of, text, tiltrotor,
+    Forgery, INCOMPLETE, OK, all, chain_anew, flip_state_bit, folder, hover, place_of, text,
+    tiltrotor,
 };
 use engine::inputs::DeviceEvent;
 use logs::records::{HARDWARE, INPUTS, InputsRecord, OUTPUTS, RESTART, STATE, TIMING};
@@ -27,9 +28,7 @@ fn flight() -> &'static Path {
 /// All that verifying a log says, for people and inside.
 fn said(log: &Path, threads: usize, window: Window) -> (Option<Outcome>, String) {
     match verify(log, &Options { threads, window, ..Options::default() }, |_| ()) {
-        Ok(verdict) => {
-            (Some(verdict.judgement.outcome), format!("{verdict}\n{verdict:#?}"))
-        }
+        Ok(verdict) => (Some(verdict.judgement.outcome), format!("{verdict}\n{verdict:#?}")),
         Err(error) => (None, error.to_string()),
     }
 }
@@ -138,10 +137,13 @@ fn a_damaged_or_cut_log_gets_the_report_of_one_pass() {
         fs::read(&file).expect("a log")
     };
     cases.push(("timing".into(), beside(|log| log.bytes(TIMING, 100)[40] ^= 1)));
-    cases.push(("view-missing".into(), beside(|log| {
-        let at = log.places("/tf")[30];
-        log.messages.remove(at);
-    })));
+    cases.push((
+        "view-missing".into(),
+        beside(|log| {
+            let at = log.places("/tf")[30];
+            log.messages.remove(at);
+        }),
+    ));
     all(cases, |(name, bytes)| {
         let file = place.join(format!("{name}.mcap"));
         fs::write(&file, bytes).expect("a file");
