@@ -159,12 +159,13 @@ def fly(tiltrotor, work, arguments, samples):
     command += [f"--fgfs-arg={argument}" for argument in ours + arguments]
     process = subprocess.Popen(command)
     flightgear = flightgear_of(process)
-    tick = lambda: struct.unpack_from(">" + "d" * len(NODES), listener.packets[-1][1])[NODES.index("tiltrotor/tick")]
-    while not listener.packets or tick() < 1:
+    tick = lambda packet: struct.unpack_from(">d", packet, 8 * NODES.index("tiltrotor/tick"))[0]
+    while not listener.packets or tick(listener.packets[-1][1]) < 1000:
         if process.poll() is not None:
             sys.exit(f"the flight ended before it was shown, with {process.returncode}")
         time.sleep(0.01)
-    began = time.monotonic() - tick() * 0.004
+    # A frame may be late, and never early.
+    began = min(came - tick(packet) * 0.004 for came, packet in listener.packets if tick(packet) >= 1)
     until = lambda moment: time.sleep(max(0, began + moment - time.monotonic()))
     until(STARVED_S[0])
     while time.monotonic() < began + STARVED_S[1]:
