@@ -107,7 +107,7 @@ pub fn run(args: &Args) -> Result<Status> {
         (None, scenario) => {
             let path = scenario.as_deref();
             let (name, text) =
-                crate::fly::text_or(path, "default.toml", aircraft::DEFAULT_SCENARIO)?;
+                crate::texts::text_or(path, "default.toml", aircraft::DEFAULT_SCENARIO)?;
             Scene { start: Some(aircraft::start(&name, &text)?), moment: None }
         }
     };

@@ -1,5 +1,7 @@
 //! `tiltrotor fly`.
 
+mod hardware;
+
 use std::fs;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -27,6 +29,7 @@ use crate::ground::{self, Whose};
 use crate::link_args::{LinkArgs, Linked};
 use crate::panel::{Cockpit, Panel};
 use crate::status::Status;
+use crate::texts::{name_of, read, text_or};
 use crate::{condition, controls, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
@@ -50,7 +53,8 @@ pub struct Args {
     /// Fly with FlightGear's own stick, keyboard and mouse
     #[arg(long)]
     flightgear_controls: bool,
-    /// Cockpit map for --stick (a built-in one without)
+    /// Cockpit map for --stick: a file, or the name of a shipped one (without: of the shipped ones
+    /// those for what is plugged in)
     #[arg(long, value_name = "FILE", requires = "stick")]
     map: Option<PathBuf>,
     #[command(flatten)]
@@ -67,6 +71,10 @@ pub struct Args {
     #[arg(long, value_name = "MS", default_value_t = 100.0)]
     #[arg(value_parser = numbers::between(5.0, 10_000.0, "ms"), allow_negative_numbers = true)]
     slip_limit: f64,
+    /// Sleep until this long before a tick is due, and spin for the rest, µs
+    #[arg(long, value_name = "US", default_value_t = 200.0)]
+    #[arg(value_parser = numbers::between(0.0, 4000.0, "µs"), allow_negative_numbers = true)]
+    spin_us: f64,
     /// Keep the loop on this processor, counted from 0
     #[arg(long, value_name = "N")]
     cpu: Option<usize>,
@@ -230,6 +238,8 @@ pub struct Plan {
     pipe: Option<fs::File>,
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
+    /// What the crew calls its devices.
+    crew: hardware::Named,
     /// Where the keys go.
     orders: Option<Orders>,
     /// Whether there is a panel, or a line of progress.
@@ -283,6 +293,7 @@ impl Plan {
         Ok(Self {
             pipe,
             phases: Vec::new(),
+            crew: hardware::Named::default(),
             orders: None,
             panel: false,
             linked,
@@ -388,6 +399,7 @@ impl Plan {
     fn keep_time(&mut self, args: &Args) {
         if let Some(real_time) = &mut self.flight.real_time {
             real_time.slip_limit_ns = (args.slip_limit * 1e6).round() as u64;
+            real_time.spin_ns = (args.spin_us * 1e3).round() as u64;
             real_time.cpu = args.cpu;
         }
     }
@@ -421,21 +433,9 @@ impl Plan {
         Ok(())
     }
 
-    #[cfg(feature = "sticks")]
     fn plug_in(&mut self, map: &mut cockpit::Params, path: Option<&Path>) -> Result<()> {
-        let (name, text) = text_or(path, "stick.toml", aircraft::STICK_MAP)?;
-        *map = aircraft::cockpit(&name, &text)?;
-        let sticks = recorder::sticks::Sticks::start(map)?;
-        for (number, name) in &sticks.found {
-            complain!("device {number}: {name}");
-        }
-        self.flight.sticks = Some(sticks);
+        self.crew = hardware::plug_in(&mut self.flight, map, path)?;
         Ok(())
-    }
-
-    #[cfg(not(feature = "sticks"))]
-    fn plug_in(&mut self, _: &mut cockpit::Params, _: Option<&Path>) -> Result<()> {
-        bail!("this program was built without `sticks`: build it with the default features")
     }
 
     /// Flies with the panel, or with a line of progress on a terminal.
@@ -447,7 +447,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, .. } = self;
+        let Self { flight, pipe: _pipe, phases, crew, .. } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
@@ -458,6 +458,9 @@ impl Plan {
                 bar.tick();
                 for warning in warnings(&told, &now) {
                     bar.suspend(|| complain!("WARNING: {warning}"));
+                }
+                for line in crew.lines(&told, &now) {
+                    bar.suspend(|| complain!("{line}"));
                 }
                 told = now;
             }
@@ -474,7 +477,7 @@ impl Plan {
     fn fly_with_panel(self) -> Result<Landing> {
         let progress = Progress::default();
         progress.stop_on_signals()?;
-        let Self { flight, pipe: _pipe, phases, orders, .. } = self;
+        let Self { flight, pipe: _pipe, phases, orders, crew, .. } = self;
         let verdict = flight
             .real_time
             .map_or_else(String::new, |wanted| check_clock(wanted, CLOCK_CHECK).verdict());
@@ -486,7 +489,7 @@ impl Plan {
             envelope: aircraft.envelope.clone(),
             phases,
             verdict,
-            controls: controls::lines(&aircraft.cockpit),
+            controls: controls::lines(&aircraft.cockpit, crew.names()),
             keys_fly: orders.is_some(),
         };
         let panel = Panel {
@@ -542,16 +545,11 @@ fn reposition(name: &str, text: &str, aircraft: &Aircraft) -> Result<Restart> {
 
 /// Says what moves the aircraft.
 fn say_controls(args: &Args) -> Result<Status> {
-    let mut map = cockpit::Params::default();
-    if args.stick || args.map.is_some() {
-        let (name, text) = text_or(args.map.as_deref(), "stick.toml", aircraft::STICK_MAP)?;
-        map = aircraft::cockpit(&name, &text)?;
+    if args.stick {
+        hardware::say_controls(args.map.as_deref())?;
     }
-    if args.keyboard || map.device.is_empty() {
-        map.device.extend(aircraft::cockpit("keyboard.toml", aircraft::KEYBOARD_MAP)?.device);
-    }
-    for line in controls::lines(&map) {
-        say!("{line}");
+    if args.keyboard || !args.stick {
+        controls::keyboard().iter().for_each(|line| say!("{line}"));
     }
     Ok(Status::Done)
 }
@@ -598,20 +596,4 @@ fn warnings(told: &Snapshot, now: &Snapshot) -> Vec<String> {
 fn pilot_names() -> String {
     let names: Vec<_> = PILOTS.iter().map(|(name, what)| format!("{name}: {what}")).collect();
     names.join("; ")
-}
-
-/// The text of a file, or the built-in one of that name.
-pub fn text_or(path: Option<&Path>, name: &str, built_in: &str) -> Result<(String, String)> {
-    match path {
-        Some(path) => Ok((name_of(path), read(path)?)),
-        None => Ok((name.to_string(), built_in.to_string())),
-    }
-}
-
-fn name_of(path: &Path) -> String {
-    path.display().to_string()
-}
-
-fn read(path: &Path) -> Result<String> {
-    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
 }

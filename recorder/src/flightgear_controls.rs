@@ -152,9 +152,11 @@ mod tests {
                 phase: &mut phase,
                 done: &mut done,
                 gave_up: &mut gave_up,
+                restart: &mut None,
+                save: &mut false,
             },
         );
-        *state = cockpit::update(&map(), state, &events);
+        *state = cockpit::update(&map(), state, &events, engine::STEP_S);
         events.len()
     }
 
