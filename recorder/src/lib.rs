@@ -8,8 +8,12 @@ mod clock;
 mod clock_check;
 mod crew;
 pub mod debrief;
+#[cfg(feature = "sticks")]
+pub mod devices;
 mod end;
 mod flight;
+pub mod flightgear_controls;
+pub mod ground;
 mod hands;
 pub mod keyboard;
 mod landing;
@@ -23,8 +27,6 @@ pub mod script;
 mod self_check;
 pub mod situation;
 pub mod statistics;
-#[cfg(feature = "sticks")]
-pub mod sticks;
 pub mod writer;
 
 pub use clock::{Pace, RealTime, Woken};
