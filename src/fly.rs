@@ -17,7 +17,7 @@ use recorder::keyboard::{Keyboard, Orders};
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::situation;
-use recorder::{End, Flight, Landing, Progress, RealTime, Restart, Snapshot, check_clock, fly};
+use recorder::{End, Flight, Landing, Progress, RealTime, Restart, Shown, Snapshot, check_clock, fly};
 
 use crate::claim::Claim;
 use crate::link_args::LinkArgs;
@@ -190,7 +190,10 @@ pub fn run(args: &Args) -> Result<Status> {
         let text = read(path)?;
         plan.flight.hands.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
     }
-    if args.keyboard {
+    let real_time = plan.flight.real_time.is_some();
+    plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
+    if plan.panel {
+        // Whoever else flies: freeze, reset, failures and weather are on keys.
         plan.add_keyboard(&mut map)?;
     }
     plan.set_map(map)?;
@@ -199,8 +202,6 @@ pub fn run(args: &Args) -> Result<Status> {
     {
         bail!("the {name} pilot never lands: give --duration SECONDS with --fast");
     }
-    let real_time = plan.flight.real_time.is_some();
-    plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
     let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
     args.common.hold(&mut landing)?;
@@ -382,9 +383,13 @@ impl Plan {
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
+            let mut punctual = Punctual::default();
             while !flying.is_finished() {
                 thread::sleep(Duration::from_millis(100));
                 let now = progress.now();
+                if let Some(warning) = progress.shown().and_then(|shown| punctual.look(&shown)) {
+                    bar.suspend(|| complain!("WARNING: {warning}"));
+                }
                 bar.set_message(line(&now, &phases));
                 bar.tick();
                 for warning in warnings(&told, &now) {
@@ -502,6 +507,42 @@ fn line(now: &Snapshot, phases: &[&str]) -> String {
         now.overruns,
         phase.unwrap_or("")
     )
+}
+
+/// Ticks between two warnings of lateness: ten seconds.
+const LATE_AGAIN_TICKS: u64 = 2500;
+
+/// Lateness, told when it begins and not again for a while.
+#[derive(Default)]
+struct Punctual {
+    told_tick: Option<u64>,
+}
+
+impl Punctual {
+    /// What is to be told of the last second.
+    fn look(&mut self, shown: &Shown) -> Option<String> {
+        let tick = shown.outputs.tick;
+        let ms = |ns: u64| ns as f64 * 1e-6;
+        let (late_ms, latency_ms) = (ms(shown.late_ns), ms(shown.latency_ns));
+        let limit_ms = report::LATENCY_LIMIT_MS;
+        if self.told_tick.is_some_and(|told| tick < told + LATE_AGAIN_TICKS) {
+            return None;
+        }
+        let warning = if latency_ms > limit_ms {
+            format!(
+                "an input needed {latency_ms:.0} ms to the picture; {limit_ms:.0} ms are the limit of a \
+                 simulator"
+            )
+        } else if late_ms > STEP_S * 1e3 {
+            format!(
+                "ticks up to {late_ms:.1} ms late within a second; `tiltrotor doctor` says what to change"
+            )
+        } else {
+            return None;
+        };
+        self.told_tick = Some(tick);
+        Some(warning)
+    }
 }
 
 /// What the crew is to know, and has not been told.

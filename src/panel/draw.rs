@@ -22,6 +22,8 @@ use super::cockpit::Cockpit;
 
 /// The smallest terminal in which all of it fits.
 const SIZE_MIN: (u16, u16) = (80, 24);
+/// How long a tick lasts.
+const TICK_MS: f64 = STEP_S * 1e3;
 /// Columns beside a control's bar: its name, what its ends are called, the frame.
 const AROUND_BAR: u16 = 19;
 
@@ -154,7 +156,13 @@ fn title(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         Span::raw(format!("{}  {phase} ", cockpit.log)),
         frozen,
     ]);
-    let second = Line::raw(format!(" {}", cockpit.verdict));
+    let ms = look.shown.late_ns as f64 * 1e-6;
+    let second = if ms > TICK_MS {
+        let words = format!(" LATE: ticks up to {ms:.1} ms late within the last second ");
+        Line::styled(words, look.warning())
+    } else {
+        Line::raw(format!(" {}", cockpit.verdict))
+    };
     frame.render_widget(Paragraph::new(vec![first, second]), area);
 }
 
@@ -312,7 +320,7 @@ fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 fn timing(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let (shown, now) = (look.shown, look.now);
     let ms = |ns: u64| ns as f64 * 1e-6;
-    let late = if ms(shown.late_ns) > 4.0 { look.warning() } else { Style::new() };
+    let late = if ms(shown.late_ns) > TICK_MS { look.warning() } else { Style::new() };
     let latency = match shown.latency_ns {
         0 => "no hardware moved".into(),
         ns => format!("input to picture {:.1} ms", ms(ns)),

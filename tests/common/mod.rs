@@ -17,7 +17,7 @@ use std::process::{Command, Output};
 
 use logs::cdr;
 use logs::fields::fields;
-use logs::records::{Chain, HARDWARE, INPUTS, STATE, StateRecord, first_digest};
+use logs::records::{Chain, HARDWARE, INPUTS, RESTART, STATE, StateRecord, first_digest};
 use mcap::records::{Metadata, Record};
 use mcap::{Attachment, Message, MessageStream, WriteOptions};
 use serde::Serialize;
@@ -302,7 +302,7 @@ pub fn chain_anew(log: &mut Forgery) {
                 };
                 message.data.to_mut()[cdr::HEADER.len()..][..8].copy_from_slice(&digest.to_le_bytes());
             }
-            (HARDWARE | INPUTS, Some(chain)) => chain.add(&message.data),
+            (HARDWARE | INPUTS | RESTART, Some(chain)) => chain.add(&message.data),
             _ => {}
         }
     }
