@@ -13,11 +13,15 @@ use engine::{Aircraft, STEP_S};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use logs::output;
+use logs::records::Happening;
+use logs::view::Level;
 use recorder::keyboard::{Keyboard, Orders};
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::situation;
-use recorder::{End, Flight, Landing, Progress, RealTime, Restart, Shown, Snapshot, check_clock, fly};
+use recorder::{
+    End, Flight, Landing, Progress, RealTime, Restart, Shown, Snapshot, Told, check_clock, fly,
+};
 
 use crate::claim::Claim;
 use crate::link_args::LinkArgs;
@@ -380,6 +384,7 @@ impl Plan {
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
         let Self { flight, pipe: _pipe, phases, _claims, .. } = self;
+        let real_time = flight.real_time.is_some();
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
@@ -392,6 +397,11 @@ impl Plan {
                 }
                 bar.set_message(line(&now, &phases));
                 bar.tick();
+                // As fast as it goes, nobody could act on it.
+                for event in progress.told().iter().filter(|event| real_time && is_new(event)) {
+                    let at_s = event.tick as f64 * STEP_S;
+                    bar.suspend(|| complain!("{at_s:.1} s: {}", event.words));
+                }
                 for warning in warnings(&told, &now) {
                     bar.suspend(|| complain!("WARNING: {warning}"));
                 }
@@ -507,6 +517,12 @@ fn line(now: &Snapshot, phases: &[&str]) -> String {
         now.overruns,
         phase.unwrap_or("")
     )
+}
+
+/// Whether an event is for the crew, and is told nowhere else.
+fn is_new(event: &Told) -> bool {
+    let elsewhere = [Happening::Slip, Happening::SelfCheck, Happening::GaveUp];
+    event.level != Level::Info && !elsewhere.contains(&event.what)
 }
 
 /// Ticks between two warnings of lateness: ten seconds.

@@ -214,7 +214,9 @@ pub fn run(args: &Args) -> Result<Status> {
 /// Verifies a log, prints the verdict, and returns the exit status.
 pub fn verify_one(log: &Path) -> Status {
     let threads = Options::default().threads;
-    Status::gravest(verify_all(&[log.into()], (1, threads), None, true).iter().map(Verified::status))
+    Status::gravest(
+        verify_all(&[log.into()], (1, threads), None, true).iter().map(Verified::status),
+    )
 }
 
 /// Verifies so many at a time, each on so many threads; each is told, in the order of the list, as soon as it and all

@@ -8,7 +8,8 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use common::{
-    DIVERGED, Forgery, INCOMPLETE, OK, UNUSABLE, chain_anew, folder, place_of, text, tiltrotor, verify,
+    DIVERGED, Forgery, INCOMPLETE, OK, UNUSABLE, chain_anew, folder, place_of, text, tiltrotor,
+    verify,
 };
 use engine::cockpit;
 use engine::inputs::Failures;

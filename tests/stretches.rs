@@ -25,9 +25,7 @@ fn flight() -> &'static Path {
 /// All that verifying a log says, for people and inside.
 fn said(log: &Path, threads: usize, window: Window) -> (Option<Outcome>, String) {
     match verify(log, &Options { threads, window, ..Options::default() }, |_| ()) {
-        Ok(verdict) => {
-            (Some(verdict.judgement.outcome), format!("{verdict}\n{verdict:#?}"))
-        }
+        Ok(verdict) => (Some(verdict.judgement.outcome), format!("{verdict}\n{verdict:#?}")),
         Err(error) => (None, error.to_string()),
     }
 }
@@ -136,10 +134,13 @@ fn a_damaged_or_cut_log_gets_the_report_of_one_pass() {
         fs::read(&file).expect("a log")
     };
     cases.push(("timing".into(), beside(|log| log.bytes(TIMING, 100)[40] ^= 1)));
-    cases.push(("view-missing".into(), beside(|log| {
-        let at = log.places("/tf")[30];
-        log.messages.remove(at);
-    })));
+    cases.push((
+        "view-missing".into(),
+        beside(|log| {
+            let at = log.places("/tf")[30];
+            log.messages.remove(at);
+        }),
+    ));
     all(cases, |(name, bytes)| {
         let file = place.join(format!("{name}.mcap"));
         fs::write(&file, bytes).expect("a file");

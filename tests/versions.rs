@@ -282,7 +282,9 @@ fn a_compacted_log_of_another_layout_is_refused_by_its_format_in_every_verb() {
     let log = short_flight("versions-not-compacted", |log| {
         reshape(log, STATE, |definition| definition.replace("float64 fuel_kg\n", ""));
     });
-    tiltrotor(&["log", "compact", text(&log)]).refused().says("its /state has not the fields of today");
+    tiltrotor(&["log", "compact", text(&log)])
+        .refused()
+        .says("its /state has not the fields of today");
 }
 
 /// The corpus's flight by this program, with something changed and the digests formed anew. Without

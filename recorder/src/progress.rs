@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use engine::Outputs;
 use engine::inputs::World;
-use logs::records::TimingRecord;
+use logs::records::{Happening, TimingRecord};
 use logs::view::Level;
 
 use crate::debrief::Debrief;
@@ -17,6 +17,8 @@ use crate::platform::{ENDING, is_ignored};
 pub struct Told {
     /// When.
     pub tick: u64,
+    /// What happened.
+    pub what: Happening,
     /// How grave it is.
     pub level: Level,
     /// In words.

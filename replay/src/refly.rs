@@ -253,7 +253,10 @@ impl Reflight {
     /// Whether every recorded state is one to begin with: the log has them, as they are today.
     pub(crate) fn can_begin_anywhere(&self) -> bool {
         let reader = &self.reader;
-        reader.same_model && reader.has_todays_state() && !reader.is_compacted() && self.notes.is_empty()
+        reader.same_model
+            && reader.has_todays_state()
+            && !reader.is_compacted()
+            && self.notes.is_empty()
     }
 
     /// The first recorded outputs that are not those computed now, of states that are the recorded ones.

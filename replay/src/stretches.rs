@@ -270,7 +270,8 @@ impl Reading<'_> {
                 }
                 self.free.push(stretch.emptied());
             }
-            let next = if self.turn < until { self.done.recv().ok() } else { self.done.try_recv().ok() };
+            let next =
+                if self.turn < until { self.done.recv().ok() } else { self.done.try_recv().ok() };
             let Some(done) = next else { return Ok(true) };
             let stretch = done?;
             self.early.insert(stretch.number, stretch);

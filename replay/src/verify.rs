@@ -8,8 +8,8 @@ use crate::diagnosis::Diagnosis;
 use crate::divergence::Divergence;
 use crate::growth::WINDOW_TICKS;
 use crate::judgement::{Facts, Judgement, disorder};
-use crate::stretches::{self, Passed};
 use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
+use crate::stretches::{self, Passed};
 use crate::versions::Versions;
 
 /// How to verify.

@@ -300,7 +300,8 @@ pub fn chain_anew(log: &mut Forgery) {
                     }
                     Some(chain) => chain.close(&state),
                 };
-                message.data.to_mut()[cdr::HEADER.len()..][..8].copy_from_slice(&digest.to_le_bytes());
+                message.data.to_mut()[cdr::HEADER.len()..][..8]
+                    .copy_from_slice(&digest.to_le_bytes());
             }
             (HARDWARE | INPUTS | RESTART, Some(chain)) => chain.add(&message.data),
             _ => {}

@@ -10,9 +10,9 @@ use engine::State;
 use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
 
+use super::ahead::{Crew, Restarts};
 use super::block::{Block, Op};
 use super::files::{broken, decode, form_of, refuse_other_form, refuse_other_layout, setup_of};
-use super::ahead::{Crew, Restarts};
 use super::flier::{AircraftOf, Flier, FlownTick, short_digest};
 use super::{HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
