@@ -57,6 +57,12 @@ fn unless_failed<T>(write: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     })
 }
 
+/// Whether nothing more can be written.
+#[cfg(feature = "sticks")]
+pub fn has_failed() -> bool {
+    FIRST_ERROR.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+}
+
 /// Writes what is held back.
 ///
 /// # Errors

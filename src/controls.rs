@@ -1,6 +1,6 @@
 //! What moves the aircraft: the active cockpit map and the keys, for `fly --controls` and the panel.
 
-use engine::cockpit::Params;
+use engine::cockpit::{AxisBinding, ButtonBinding, Device, Params, Side, Travel};
 use engine::inputs::Failures;
 use recorder::keyboard::{self, KeyAction};
 
@@ -11,22 +11,24 @@ const OTHERS: [(&str, &str); 3] = [
     ("Q, Ctrl-C", "ends the flight"),
 ];
 
-/// The controls of a map line by line; those of the keyboard by their keys.
-pub fn lines(map: &Params) -> Vec<String> {
+/// The controls of a map line by line; those of the keyboard by their keys. `names` are what the crew calls
+/// its devices, by their numbers, as far as they are known.
+pub fn lines(map: &Params, names: &[String]) -> Vec<String> {
     let mut lines = Vec::new();
-    for device in &map.device {
+    for (number, device) in map.device.iter().enumerate() {
         if device.name == keyboard::DEVICE {
             lines.extend(keyboard());
             continue;
         }
-        lines.push(format!("{}:", device.name));
+        let name = names.get(number).unwrap_or(&device.name);
+        lines.push(format!("device {number}, {name}:"));
         for axis in &device.axis {
-            let facts = axis.control.facts();
-            lines.push(format!("  axis {:<#6x} {}", axis.code, facts.words));
+            let (code, words) = (axis.code.to_string(), axis.control.facts().words);
+            lines.push(format!("  {code:<14} {words}{}", how(axis)));
         }
         for button in &device.button {
-            let facts = button.control.facts();
-            lines.push(format!("  button {:<#5x} {}", button.code, facts.words));
+            let (code, words) = (button.code.to_string(), button.control.facts().words);
+            lines.push(format!("  {code:<14} {words}{}", how_pressed(button)));
         }
     }
     lines
@@ -46,4 +48,50 @@ pub fn keyboard() -> Vec<String> {
     std::iter::once("keyboard:".to_string())
         .chain(keys.map(|(on, what)| format!("  {on:<12} {what}")))
         .collect()
+}
+
+/// The controls of a device, in words.
+pub fn moved(device: &Device) -> String {
+    let axes = device.axis.iter().map(|axis| axis.control.facts().words);
+    let buttons = device.button.iter().map(|button| button.control.facts().words);
+    let mut words: Vec<&str> = axes.collect();
+    for button in buttons.filter(|button| !button.is_empty()) {
+        if !words.contains(&button) {
+            words.push(button);
+        }
+    }
+    words.join(", ")
+}
+
+fn how(axis: &AxisBinding) -> String {
+    let mut how = String::new();
+    let percent = |norm: f64| format!("{:.0} %", norm * 100.0);
+    match axis.side {
+        Side::Both => {}
+        Side::Upper => how.push_str(", upper half"),
+        Side::Lower => how.push_str(", lower half"),
+    }
+    if axis.inverted {
+        how.push_str(", inverted");
+    }
+    if axis.rate_norm_per_s != 0.0 {
+        how.push_str(&format!(", at {} a second", percent(axis.rate_norm_per_s)));
+    }
+    let centred = axis.control.facts().travel == Travel::Centred || axis.rate_norm_per_s != 0.0;
+    if axis.dead_norm > 0.0 && centred {
+        how.push_str(&format!(", dead zone {}", percent(axis.dead_norm)));
+    }
+    if let (Some(low), Some(high)) = (axis.raw_min, axis.raw_max) {
+        how.push_str(&format!(", {low} to {high} counts"));
+    }
+    how
+}
+
+fn how_pressed(button: &ButtonBinding) -> String {
+    let beyond = button.beyond_norm.map(|norm| {
+        let side = if norm < 0.0 { "below" } else { "above" };
+        format!(", {side} {:.0} % of its half travel", norm * 100.0)
+    });
+    let inverted = if button.inverted { ", when it is not pressed" } else { "" };
+    format!("{}{inverted}", beyond.unwrap_or_default())
 }

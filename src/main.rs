@@ -7,20 +7,26 @@ mod claim;
 mod condition;
 mod controls;
 mod demo;
+mod devices;
 mod diff;
 mod doctor;
+mod flightgear;
 mod fly;
+mod ground;
 mod identity;
 mod json;
 mod linearize;
 mod link_args;
 mod log;
 mod made;
+#[cfg(feature = "sticks")]
+mod maps;
 mod numbers;
 mod panel;
 mod replay_live;
 mod report;
 mod status;
+mod texts;
 mod timing;
 mod trim;
 mod verify;
@@ -47,6 +53,8 @@ struct Cli {
 enum Command {
     /// Fly in real time (or --fast) with a stick, a pilot model or a script.
     Fly(fly::Args),
+    /// Sticks, throttles, pedals and gamepads: what is there, what is flown with, a new map.
+    Devices(devices::Args),
     /// Refly a log, live in FlightGear.
     Replay(replay_live::Args),
     /// Do logs refly to the same bits?
@@ -68,6 +76,8 @@ enum Command {
     Linearize(linearize::Args),
     /// What this machine can hold in real time, and what to change.
     Doctor(doctor::Args),
+    /// Start FlightGear with our aircraft, and wait until it is ready.
+    Flightgear(flightgear::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
 }
@@ -107,6 +117,7 @@ fn unwritten(error: &std::io::Error) -> Status {
 fn run(command: Command) -> anyhow::Result<Status> {
     match command {
         Command::Fly(args) => fly::run(&args),
+        Command::Devices(args) => devices::run(&args),
         Command::Replay(args) => replay_live::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Diff(args) => diff::run(&args),
@@ -116,6 +127,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),
         Command::Doctor(args) => doctor::run(&args),
+        Command::Flightgear(args) => flightgear::run(&args),
         Command::Demo(args) => demo::run(&args),
     }
 }

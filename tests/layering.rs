@@ -27,12 +27,15 @@ const KEPT: &[(&str, &str)] = &[
     ("bincode", "logs"),
     ("cdr-encoding", "logs"),
     ("csv", "logs"),
+    ("evdev", "recorder"),
     ("gilrs", "recorder"),
     ("gilrs-core", "recorder"),
+    ("inotify", "recorder"),
     ("mcap", "logs"),
     ("parquet", "logs"),
     ("png", "flightgear-package"),
     ("rerun", "replay"),
+    ("udev", "recorder"),
     ("zerocopy", "flightgear"),
 ];
 
@@ -175,8 +178,19 @@ fn unsafe_code_is_forbidden_everywhere() {
 #[test]
 fn what_is_heavy_can_be_switched_off() {
     let crates = crates();
-    for (name, heavy) in [("replay", "rerun"), ("recorder", "gilrs-core")] {
-        let optional = crates[name]["dependencies"][heavy].get("optional").and_then(Value::as_bool);
+    let heavies = [
+        ("replay", "rerun"),
+        ("recorder", "gilrs-core"),
+        ("recorder", "evdev"),
+        ("recorder", "udev"),
+    ];
+    for (name, heavy) in heavies {
+        let targets = crates[name].get("target").and_then(Value::as_table);
+        let of_targets = targets.into_iter().flatten().map(|(_, target)| target);
+        let all = Value::Table(crates[name].clone());
+        let mut tables = std::iter::once(&all).chain(of_targets);
+        let dependency = tables.find_map(|table| table.get("dependencies")?.get(heavy));
+        let optional = dependency.and_then(|how| how.get("optional")).and_then(Value::as_bool);
         assert_eq!(optional, Some(true), "{name} → {heavy} is optional");
     }
 }

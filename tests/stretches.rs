@@ -7,9 +7,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use common::{Forgery, all, chain_anew, flip_state_bit, folder, hover, place_of};
+use common::{
+    Forgery, INCOMPLETE, OK, all, chain_anew, flip_state_bit, folder, hover, place_of, text,
+    tiltrotor,
+};
 use engine::inputs::DeviceEvent;
-use logs::records::{HARDWARE, INPUTS, InputsRecord, OUTPUTS, STATE, TIMING};
+use logs::records::{HARDWARE, INPUTS, InputsRecord, OUTPUTS, RESTART, STATE, TIMING};
 use replay::{Options, Outcome, Window, verify};
 
 /// Two seconds by the pilot model: eight stretches.
@@ -169,6 +172,46 @@ fn a_part_gets_the_report_of_one_pass() {
     ] {
         let window = Window { from_tick, until_tick, clamped: false };
         assert_eq!(same_for_all(&file, window), Ok(expected), "{window:?}");
+    }
+}
+
+#[test]
+fn a_flight_with_restarts_is_proven_in_stretches_and_in_blocks() {
+    let place = folder("stretches-restarts");
+    let (log, script) = (place.join("flight.mcap"), place.join("script.toml"));
+    // At the beginning, the end and in the middle of stretches, and of blocks.
+    let restarts = [0.256, 0.26, 0.4, 0.8, 0.804, 1.1];
+    let lines = restarts.map(|at_s| format!("[[event]]\nat_s = {at_s}\nrestart = \"start\"\n\n"));
+    let moved = "[[event]]\nat_s = 0.1\naxis = { stick_aft = 0.3 }\nover_s = 0.1\n\n";
+    let end = "[[event]]\nat_s = 1.4\nend = true\n";
+    fs::write(&script, format!("{moved}{}{end}", lines.concat())).expect("a file");
+    let fly = ["fly", "--fast", "--no-flightgear", "--script", text(&script), "--out", text(&log)];
+    tiltrotor(&fly).ends(OK);
+    let changed = {
+        let mut log = Forgery::of(&log);
+        diverged(&mut log, 220);
+        let file = place.join("diverged.mcap");
+        log.write(&file);
+        file
+    };
+    let compact = place.join("compact.mcap");
+    let keyframes = ["--keyframes", "0.2", "--out", text(&compact)];
+    tiltrotor(&[&["log", "compact", text(&log)], &keyframes[..]].concat()).ends(OK);
+    for (log, expected) in
+        [(&log, Outcome::Exact), (&compact, Outcome::Exact), (&changed, Outcome::Diverged)]
+    {
+        assert_eq!(same_for_all(log, Window::default()), Ok(Some(expected)), "{}", log.display());
+    }
+    assert_eq!(Forgery::of(&log).places(RESTART).len(), restarts.len());
+    // What can be trusted of it, whole or compacted, is the same flight.
+    for log in [&log, &compact] {
+        let (cut, fixed) = (place.join("cut.mcap"), place.join("fixed.mcap"));
+        let bytes = fs::read(log).expect("a log");
+        let index = mcap::Summary::read(&bytes).expect("an index").expect("an index");
+        let last = index.chunk_indexes.last().expect("a chunk").chunk_start_offset as usize;
+        fs::write(&cut, &bytes[..last]).expect("a file");
+        let out = ["--force", "--out", text(&fixed)];
+        tiltrotor(&[&["log", "recover", text(&cut)], &out[..]].concat()).ends(INCOMPLETE);
     }
 }
 

@@ -4,271 +4,386 @@
 //! the meaning of every button are here, inside the step, so that the log needs to hold nothing but
 //! what the hardware said.
 //!
+//! # Equations
+//! ```text
+//! control = trim + deflection                     an axis that says where the control is
+//! control' = control + rate·deflection·h          one that says how fast it moves
+//! deflection = upper − lower                      of two axes that are joined
+//! ```
+//! A control that waits for pick-up keeps its position until `trim + deflection` crosses it.
+//!
 //! # Signs
 //! Stick aft, stick right, right pedal, collective up, nacelles towards the helicopter are positive.
+//!
+//! # Assumptions
+//! Trim switches move at 0.5 in/s of ±4.8 in unless the map says otherwise (`controls.md` of the data: [E]).
 
-use alloc::string::String;
-use alloc::vec::Vec;
+mod codes;
+mod lists;
+mod map;
 
-use serde::{Deserialize, Serialize};
-
+pub use self::codes::{Code, Codes};
+pub use self::lists::{Acts, AxisControl, AxisFacts, ButtonControl, ButtonFacts, Travel};
+pub use self::map::{AxisBinding, ButtonBinding, Device, Mode, Params, Side, WhenUnplugged};
 pub use crate::controls::{FLAP_DETENT_LAST, PilotControls as State, RPM_SELECT_LAST};
-use crate::enumeration;
 use crate::inputs::{DeviceEvent, EventKind};
 use crate::math::{clamp, sign};
 
-/// How far a control goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Travel {
-    /// Either way from its middle, −1..1.
-    Centred,
-    /// From one end to the other, 0..1.
-    FromEnd,
+/// A control that is no further from its hardware than this need not wait: half an inch of a lever's ten
+/// would be felt, a quarter is not.
+const PICK_UP_WITHIN_NORM: f64 = 0.02;
+
+/// Rate of a trim switch, of half the stick's travel.
+const TRIM_NORM_PER_S: f64 = 0.5 / 4.8;
+
+/// What an event of an axis tells.
+#[derive(Clone, Copy, PartialEq)]
+enum Told {
+    /// It moved.
+    Moved,
+    /// Where it stands.
+    Found,
 }
 
-impl Travel {
-    /// The position at the lower end; the other is always at 1.
-    pub const fn low_norm(self) -> f64 {
-        match self {
-            Self::Centred => -1.0,
-            Self::FromEnd => 0.0,
-        }
-    }
-}
-
-/// What is told of an [`AxisControl`].
-#[derive(Clone, Copy, Debug)]
-pub struct AxisFacts {
-    /// Its name in maps and scripts; never changed.
-    pub key: &'static str,
-    /// Its name in words.
-    pub words: &'static str,
-    /// What it is, and which way is positive.
-    pub description: &'static str,
-    /// How far it goes.
-    pub travel: Travel,
-    /// Whether it is a switch that springs back when nobody holds it, be it a hat or buttons.
-    pub springs_back: bool,
-    /// Puts it at a position.
-    pub set: fn(&mut State, f64),
-}
-
-enumeration! {
-    /// What a device's axis can move.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "snake_case")]
-    pub enum AxisControl tells AxisFacts {
-        /// Longitudinal stick, aft positive.
-        StickAft {
-            key: "stick_aft", words: "stick aft", travel: Travel::Centred, springs_back: false,
-            set: |controls, at_norm| controls.stick_aft_norm = at_norm,
-        }
-        /// Lateral stick, right positive.
-        StickRight {
-            key: "stick_right", words: "stick right", travel: Travel::Centred, springs_back: false,
-            set: |controls, at_norm| controls.stick_right_norm = at_norm,
-        }
-        /// Power lever, up positive.
-        Collective {
-            key: "collective", words: "collective", travel: Travel::FromEnd, springs_back: false,
-            set: |controls, at_norm| controls.collective_norm = at_norm,
-        }
-        /// Pedals, right positive.
-        PedalRight {
-            key: "pedal_right", words: "pedal right", travel: Travel::Centred, springs_back: false,
-            set: |controls, at_norm| controls.pedal_right_norm = at_norm,
-        }
-        /// Left toe brake.
-        BrakeLeft {
-            key: "brake_left", words: "brake left", travel: Travel::FromEnd, springs_back: false,
-            set: |controls, at_norm| controls.brake_norm.left = at_norm,
-        }
-        /// Right toe brake.
-        BrakeRight {
-            key: "brake_right", words: "brake right", travel: Travel::FromEnd, springs_back: false,
-            set: |controls, at_norm| controls.brake_norm.right = at_norm,
-        }
-        /// Nacelle switch as an axis (a hat): over a half is aft, below minus a half forward.
-        NacelleAft {
-            key: "nacelle_aft", words: "nacelle aft", travel: Travel::Centred, springs_back: true,
-            set: |controls, at_norm| {
-                controls.nacelle_aft_norm = if at_norm.abs() > 0.5 { sign(at_norm) } else { 0.0 };
-            },
-        }
-    }
-}
-
-/// What is told of a [`ButtonControl`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ButtonFacts {
-    /// Its name in maps and scripts; never changed.
-    pub key: &'static str,
-    /// Its name in words.
-    pub words: &'static str,
-    /// What it does.
-    pub description: &'static str,
-}
-
-enumeration! {
-    /// What a device's button can do.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(rename_all = "snake_case")]
-    pub enum ButtonControl tells ButtonFacts {
-        /// Nacelles towards the aeroplane while held.
-        NacelleForward { key: "nacelle_forward", words: "nacelle forward" }
-        /// Nacelles towards the helicopter while held.
-        NacelleAft { key: "nacelle_aft", words: "nacelle aft" }
-        /// Flap lever one detent down.
-        FlapDown { key: "flap_down", words: "flap down" }
-        /// Flap lever one detent up.
-        FlapUp { key: "flap_up", words: "flap up" }
-        /// Gear handle to its other position.
-        GearToggle { key: "gear_toggle", words: "gear toggle" }
-        /// Parking brake to its other position.
-        ParkingBrakeToggle { key: "parking_brake_toggle", words: "parking brake toggle" }
-        /// SCAS, all axes, on or off.
-        ScasToggle { key: "scas_toggle", words: "scas toggle" }
-        /// Next rotor speed: helicopter, aeroplane early flights, aeroplane design.
-        RpmSelect { key: "rpm_select", words: "rpm select" }
-        /// Marks the moment in the log.
-        Marker { key: "marker", words: "marker" }
-    }
-}
-
-/// What an axis does when its device is unplugged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum WhenUnplugged {
-    /// Stays where it was.
-    #[default]
-    Hold,
-    /// Goes to its neutral position.
-    Centre,
-}
-
-/// One axis of a device.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AxisBinding {
-    /// The kernel's event code.
-    pub code: u64,
-    /// What it moves.
-    pub control: AxisControl,
-    /// Raw value at one end of travel; with `raw_max`, from the device itself where it tells.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub raw_min: Option<i64>,
-    /// Raw value at the other end.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub raw_max: Option<i64>,
-    /// Whether the raw value falls as the control rises.
-    #[serde(default)]
-    pub inverted: bool,
-    /// Dead zone either side of the middle, as a part of the half travel.
-    #[serde(default)]
-    pub dead_norm: f64,
-    /// Softness around the middle: 0 straight, 1 cubic.
-    #[serde(default)]
-    pub expo_norm: f64,
-    /// When the device is unplugged.
-    #[serde(default)]
-    pub when_unplugged: WhenUnplugged,
-}
-
-/// One button of a device.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ButtonBinding {
-    /// The kernel's event code.
-    pub code: u64,
-    /// What it does.
-    pub control: ButtonControl,
-}
-
-/// One device of the map; its place in the list is its number in the log.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Device {
-    /// The device's own name, or a part of it.
-    pub name: String,
-    /// Its axes.
-    #[serde(default)]
-    pub axis: Vec<AxisBinding>,
-    /// Its buttons.
-    #[serde(default)]
-    pub button: Vec<ButtonBinding>,
-}
-
-/// The cockpit map.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Params {
-    /// Devices, in the order of their numbers.
-    #[serde(default)]
-    pub device: Vec<Device>,
-}
-
-/// Applies the events in their order. Events of unknown devices, codes or kinds change nothing.
-pub fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
+/// Applies the events in their order, then moves what moves by itself for so long, which is nothing
+/// during a pause. Events of unknown devices, codes or kinds change nothing.
+pub fn update(map: &Params, state: &State, events: &[DeviceEvent], passed_s: f64) -> State {
     let mut controls = *state;
     for event in events {
-        let Some(device) = usize::try_from(event.device).ok().and_then(|i| map.device.get(i))
-        else {
+        let Some(device) = map.device(event.device) else { continue };
+        let was_released = controls.force_trim.is_released();
+        apply(map, device, &mut controls, event, passed_s > 0.0);
+        if was_released && !controls.force_trim.is_released() {
+            trim_here(map, &mut controls);
+        }
+    }
+    if passed_s > 0.0 && controls.force_trim.anything_moves() {
+        move_on(map, &mut controls, passed_s);
+    }
+    controls
+}
+
+fn apply(map: &Params, device: &Device, controls: &mut State, event: &DeviceEvent, passes: bool) {
+    let Some(kind) = EventKind::from_u64(event.kind) else { return };
+    let picked_up = device.pick_up == Some(true);
+    // During a pause the aircraft keeps its controls: what moves then is picked up after it.
+    let told = if passes || !picked_up { Told::Moved } else { Told::Found };
+    let pressed = event.value != 0;
+    match kind {
+        EventKind::Axis => axis(map, device, controls, event, told),
+        EventKind::AxisPosition => axis(map, device, controls, event, Told::Found),
+        EventKind::Button => {
+            let code = Code::Key(event.code);
+            for binding in device.axes_of(code) {
+                let at_norm = if pressed { binding.reach_norm } else { 0.0 };
+                turn(controls, binding, at_norm, picked_up, told);
+            }
+            for binding in device.buttons_of(code) {
+                press(controls, binding, pressed);
+            }
+        }
+        EventKind::Disconnected => unplug(map, device, controls),
+        // Recorded for whoever reads the log; a switch acts when it is moved.
+        EventKind::Connected | EventKind::Dropped | EventKind::ButtonPosition => {}
+    }
+}
+
+fn axis(map: &Params, device: &Device, controls: &mut State, event: &DeviceEvent, told: Told) {
+    let code = Code::Axis(event.code);
+    for binding in device.axes_of(code) {
+        let at_norm = position(binding, event) * binding.reach_norm;
+        turn(controls, binding, at_norm, device.pick_up == Some(true), told);
+    }
+    for binding in device.buttons_of(code) {
+        let ends = travelled(event, None, None);
+        let (Some(beyond_norm), Some((raw, low, high))) = (binding.beyond_norm, ends) else {
             continue;
         };
-        match EventKind::from_u64(event.kind) {
-            Some(EventKind::Axis) => {
-                for binding in device.axis.iter().filter(|axis| axis.code == event.code) {
-                    (binding.control.facts().set)(&mut controls, position(binding, event));
-                }
+        let at_norm = centred(raw, low, high);
+        let pressed = if beyond_norm < 0.0 { at_norm < beyond_norm } else { at_norm > beyond_norm };
+        let place = place_of(map, binding);
+        if pressed != controls.force_trim.is_pressed(place) {
+            controls.force_trim.put_pressed(place, pressed);
+            if told == Told::Moved {
+                press(controls, binding, pressed);
             }
-            Some(EventKind::Button) => {
-                for binding in device.button.iter().filter(|button| button.code == event.code) {
-                    set_button(&mut controls, binding.control, event.value != 0);
-                }
+        }
+    }
+}
+
+/// The place of an axis that is used as a button among all of them.
+fn place_of(map: &Params, binding: &ButtonBinding) -> u64 {
+    let all = map.device.iter().flat_map(|device| &device.button);
+    let axes = all.filter(|button| button.beyond_norm.is_some());
+    axes.take_while(|axis| !core::ptr::eq(*axis, binding)).count() as u64
+}
+
+/// Nobody holds the switches of a device that is gone, and nothing waits for it.
+fn unplug(map: &Params, device: &Device, controls: &mut State) {
+    for binding in &device.axis {
+        let (place, facts) = (binding.control as u64, binding.control.facts());
+        if facts.springs_back || binding.when_unplugged == WhenUnplugged::Centre {
+            let rest_norm =
+                if facts.travel == Travel::Centred { trim(controls, facts) } else { 0.0 };
+            (facts.set)(controls, rest_norm);
+        }
+        controls.pick_up.wait(place, false);
+        controls.force_trim.put_above(place, false);
+        controls.force_trim.put_moving(place, false);
+        put_hardware(controls, facts, 0.0);
+        if binding.side != Side::Both {
+            controls.pick_up.put_lower(place, 0.0);
+        }
+    }
+    for binding in &device.button {
+        if binding.beyond_norm.is_some() {
+            controls.force_trim.put_pressed(place_of(map, binding), false);
+        }
+        if binding.control.facts().acts == Acts::WhileHeld {
+            (binding.control.facts().set)(controls, false);
+        }
+    }
+}
+
+/// A button's new position.
+fn press(controls: &mut State, binding: &ButtonBinding, pressed: bool) {
+    let ButtonFacts { acts, is_on, set, .. } = binding.control.facts();
+    let pressed = pressed != binding.inverted;
+    match (acts, binding.mode) {
+        (Acts::Once, _) if !pressed => {}
+        (Acts::WhileHeld | Acts::AsItStands, Some(Mode::Latch)) => {
+            if pressed {
+                set(controls, !is_on(controls));
             }
-            Some(EventKind::Disconnected) => {
-                // Nobody holds the switches of a device that is gone.
-                for binding in &device.axis {
-                    let AxisFacts { springs_back, set, .. } = binding.control.facts();
-                    if *springs_back || binding.when_unplugged == WhenUnplugged::Centre {
-                        set(&mut controls, 0.0);
-                    }
-                }
-                for binding in &device.button {
-                    set_button(&mut controls, binding.control, false);
-                }
+        }
+        _ => set(controls, pressed),
+    }
+}
+
+/// An axis' new position, −1 … 1, or 0 … 1 of those from an end.
+fn turn(controls: &mut State, binding: &AxisBinding, at_norm: f64, picked_up: bool, told: Told) {
+    let (control, facts) = (binding.control, binding.control.facts());
+    let deflection_norm = joined(controls, binding, at_norm);
+    if binding.is_remembered() {
+        put_hardware(controls, facts, deflection_norm);
+    }
+    if binding.rate_norm_per_s != 0.0 {
+        let moves = told == Told::Moved && deflection_norm != 0.0;
+        controls.force_trim.put_moving(control as u64, moves);
+    } else if picked_up && !facts.springs_back {
+        take_over(controls, control, deflection_norm, binding.is_remembered(), told);
+    } else if told == Told::Moved {
+        (facts.set)(controls, asked_for(controls, facts, deflection_norm));
+    }
+}
+
+/// Where a deflection puts a control.
+fn asked_for(controls: &State, facts: &AxisFacts, deflection_norm: f64) -> f64 {
+    clamp(trim(controls, facts) + deflection_norm, facts.travel.low_norm(), 1.0)
+}
+
+/// Puts a control where the hardware is, or lets it wait for it.
+fn take_over(
+    controls: &mut State,
+    control: AxisControl,
+    deflection_norm: f64,
+    remembered: bool,
+    told: Told,
+) {
+    let (place, facts) = (control as u64, control.facts());
+    let to_norm = asked_for(controls, facts, deflection_norm);
+    if told == Told::Moved && !controls.pick_up.waits(place) {
+        (facts.set)(controls, to_norm);
+        return;
+    }
+    // Where the control would come to: a flap lever's detent is not where its axis is.
+    let mut there = *controls;
+    (facts.set)(&mut there, to_norm);
+    let gap_norm = (facts.get)(&there) - (facts.get)(controls);
+    let is_above = gap_norm > 0.0;
+    let crossed = told == Told::Moved && is_above != controls.force_trim.is_above(place);
+    let is_there = crossed || gap_norm.abs() <= PICK_UP_WITHIN_NORM;
+    controls.pick_up.wait(place, !is_there);
+    controls.force_trim.put_above(place, !is_there && is_above);
+    if !remembered {
+        put_hardware(controls, facts, if is_there { 0.0 } else { deflection_norm });
+    }
+    if is_there && told == Told::Moved {
+        (facts.set)(controls, to_norm);
+    }
+}
+
+/// The deflection of an axis and the one that it is joined with.
+fn joined(controls: &mut State, binding: &AxisBinding, at_norm: f64) -> f64 {
+    let (place, facts) = (binding.control as u64, binding.control.facts());
+    match binding.side {
+        Side::Both => at_norm,
+        Side::Upper => at_norm - controls.pick_up.lower_norm(place),
+        Side::Lower => {
+            let upper_norm = hardware(controls, facts) + controls.pick_up.lower_norm(place);
+            controls.pick_up.put_lower(place, at_norm);
+            upper_norm - controls.pick_up.lower_norm(place)
+        }
+    }
+}
+
+/// Moves what trim switches and axes with a rate move.
+fn move_on(map: &Params, controls: &mut State, passed_s: f64) {
+    for device in &map.device {
+        for binding in &device.axis {
+            let (place, facts) = (binding.control as u64, binding.control.facts());
+            // Of a joined pair the lower one is the other half of the same deflection.
+            let twin = binding.side == Side::Lower
+                && device
+                    .axis
+                    .iter()
+                    .any(|axis| axis.control == binding.control && axis.side == Side::Upper);
+            if binding.rate_norm_per_s == 0.0 || twin || !controls.force_trim.moves(place) {
+                continue;
             }
-            // Recorded for whoever reads the log.
-            Some(
-                EventKind::Connected
-                | EventKind::Dropped
-                | EventKind::AxisPosition
-                | EventKind::ButtonPosition,
-            )
-            | None => {}
+            let by_norm = hardware(controls, facts) * binding.rate_norm_per_s * passed_s;
+            let to_norm = (facts.get)(controls) + by_norm;
+            (facts.set)(controls, clamp(to_norm, facts.travel.low_norm(), 1.0));
+        }
+        for binding in &device.button {
+            let Some((control, way)) = binding.control.trims() else { continue };
+            let facts = control.facts();
+            if !(binding.control.facts().is_on)(controls) {
+                continue;
+            }
+            let rate_norm_per_s = binding.rate_norm_per_s.unwrap_or(TRIM_NORM_PER_S);
+            let was_norm = trim(controls, facts);
+            let now_norm = clamp(was_norm + way * rate_norm_per_s * passed_s, -1.0, 1.0);
+            put_trim(controls, facts, now_norm);
+            let to_norm = (facts.get)(controls) + (now_norm - was_norm);
+            (facts.set)(controls, clamp(to_norm, -1.0, 1.0));
+        }
+    }
+}
+
+/// The release button is let go: where stick and pedals are they are at rest, and the hardware, which is
+/// still held there, takes them over when it is back in its middle.
+fn trim_here(map: &Params, controls: &mut State) {
+    for &control in AxisControl::ALL {
+        let (place, facts) = (control as u64, control.facts());
+        if facts.trim.is_none() {
+            continue;
+        }
+        let bound = |axis: &&AxisBinding| axis.control == control;
+        let binding = map.device.iter().flat_map(|device| &device.axis).find(bound);
+        let remembered = binding.is_some_and(AxisBinding::is_remembered);
+        let at_norm = (facts.get)(controls);
+        let deflection_norm = if remembered || controls.pick_up.waits(place) {
+            hardware(controls, facts)
+        } else {
+            at_norm - trim(controls, facts)
+        };
+        put_trim(controls, facts, at_norm);
+        let waits = deflection_norm.abs() > PICK_UP_WITHIN_NORM;
+        controls.pick_up.wait(place, waits);
+        controls.force_trim.put_above(place, waits && deflection_norm > 0.0);
+        if !remembered {
+            put_hardware(controls, facts, if waits { deflection_norm } else { 0.0 });
+        }
+    }
+}
+
+/// The controls `now`, as a reset, a loaded situation or a new start has them, with the hardware as it was
+/// in `was`: what does not stand there waits for pick-up.
+#[must_use]
+pub fn await_pick_up(map: &Params, was: &State, now: &State) -> State {
+    let mut controls = *now;
+    controls.pick_up = was.pick_up;
+    // Switches are held as they were, the trim is the new one.
+    controls.force_trim.released = was.force_trim.released;
+    for device in map.device.iter().filter(|device| device.pick_up == Some(true)) {
+        for binding in &device.axis {
+            let (place, facts) = (binding.control as u64, binding.control.facts());
+            if facts.springs_back || binding.rate_norm_per_s != 0.0 {
+                continue;
+            }
+            let deflection_norm = if binding.is_remembered() || was.pick_up.waits(place) {
+                hardware(was, facts)
+            } else {
+                (facts.get)(was) - trim(was, facts)
+            };
+            let remembered = binding.is_remembered();
+            take_over(&mut controls, binding.control, deflection_norm, remembered, Told::Found);
         }
     }
     controls
 }
 
-/// The raw value as a control position: −1..1, or 0..1 for those that start at an end.
-///
-/// The ends of travel are those of the map, then those that the device tells, then ±32767.
-fn position(binding: &AxisBinding, event: &DeviceEvent) -> f64 {
-    let (raw, told) = (event.value, event.raw_min < event.raw_max);
-    let low = binding.raw_min.unwrap_or(if told { event.raw_min } else { -32767 });
-    let high = binding.raw_max.unwrap_or(if told { event.raw_max } else { 32767 });
-    if low == high {
-        return 0.0;
+/// A control that waits for its hardware.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Waiting {
+    /// Which.
+    pub control: AxisControl,
+    /// Where it is, and stays until then.
+    pub at_norm: f64,
+    /// Where the hardware would put it; nothing of a flap lever, which has detents.
+    pub hardware_norm: Option<f64>,
+    /// Whether the hardware has to come up to it, or right or aft; else down, left or forward.
+    pub up: bool,
+}
+
+/// The controls that wait for pick-up.
+pub fn waiting(controls: &State) -> impl Iterator<Item = Waiting> {
+    AxisControl::ALL.iter().filter(|control| controls.pick_up.waits(**control as u64)).map(
+        |&control| Waiting {
+            control,
+            at_norm: (control.facts().get)(controls),
+            hardware_norm: control
+                .facts()
+                .hardware
+                .map(|_| asked_for(controls, control.facts(), hardware(controls, control.facts()))),
+            up: !controls.force_trim.is_above(control as u64),
+        },
+    )
+}
+
+fn hardware(controls: &State, facts: &AxisFacts) -> f64 {
+    let mut hardware = controls.pick_up.hardware;
+    facts.hardware.map_or(0.0, |of| *of(&mut hardware))
+}
+
+fn put_hardware(controls: &mut State, facts: &AxisFacts, at_norm: f64) {
+    if let Some(of) = facts.hardware {
+        // No −0.0 in the state.
+        *of(&mut controls.pick_up.hardware) = at_norm + 0.0;
     }
-    // As floating-point numbers, because the difference of two of any size may not be an i64.
-    let (raw, low, high) = (raw as f64, low as f64, high as f64);
-    if binding.control.facts().travel == Travel::FromEnd {
+}
+
+fn trim(controls: &State, facts: &AxisFacts) -> f64 {
+    let mut trim = controls.force_trim;
+    facts.trim.map_or(0.0, |of| *of(&mut trim))
+}
+
+fn put_trim(controls: &mut State, facts: &AxisFacts, at_norm: f64) {
+    if let Some(of) = facts.trim {
+        *of(&mut controls.force_trim) = at_norm + 0.0;
+    }
+}
+
+/// The raw value as a control position: −1 … 1, or 0 … 1 for those that start at an end.
+fn position(binding: &AxisBinding, event: &DeviceEvent) -> f64 {
+    let Some((raw, low, high)) = travelled(event, binding.raw_min, binding.raw_max) else {
+        return 0.0;
+    };
+    let from_end = binding.side != Side::Both
+        || binding.control.facts().travel == Travel::FromEnd && binding.rate_norm_per_s == 0.0;
+    if from_end {
         let travel = clamp((raw - low) / (high - low), 0.0, 1.0);
         return if binding.inverted { 1.0 - travel } else { travel };
     }
-    // Both distances before they are divided: then the mirrored raw value is the mirrored position.
-    let x = clamp(((raw - low) - (high - raw)) / (high - low), -1.0, 1.0);
+    let x = match binding.raw_centre.map(|centre| centre as f64) {
+        Some(centre) if (centre - low) * (high - centre) > 0.0 => {
+            let end =
+                if (raw - centre) * (high - low) > 0.0 { high - centre } else { centre - low };
+            clamp((raw - centre) / end, -1.0, 1.0)
+        }
+        _ => centred(raw, low, high),
+    };
     let x = if binding.inverted { -x } else { x };
     let dead = clamp(binding.dead_norm, 0.0, 0.99);
     let beyond = (x.abs() - dead) / (1.0 - dead);
@@ -279,49 +394,46 @@ fn position(binding: &AxisBinding, event: &DeviceEvent) -> f64 {
     sign(x) * ((1.0 - expo) * beyond + expo * beyond * beyond * beyond)
 }
 
-fn set_button(controls: &mut State, control: ButtonControl, pressed: bool) {
-    match control {
-        ButtonControl::NacelleForward => hold_nacelles(controls, -1.0, pressed),
-        ButtonControl::NacelleAft => hold_nacelles(controls, 1.0, pressed),
-        _ if !pressed => {}
-        ButtonControl::FlapDown => {
-            controls.flap_detent = controls.flap_detent.wrapping_add(1).min(FLAP_DETENT_LAST);
-        }
-        ButtonControl::FlapUp => controls.flap_detent = controls.flap_detent.saturating_sub(1),
-        ButtonControl::GearToggle => controls.gear_down ^= 1,
-        ButtonControl::ParkingBrakeToggle => controls.parking_brake ^= 1,
-        ButtonControl::ScasToggle => controls.scas_on ^= 1,
-        ButtonControl::RpmSelect => {
-            controls.rpm_select = controls.rpm_select.wrapping_add(1) % (RPM_SELECT_LAST + 1);
-        }
-        ButtonControl::Marker => controls.markers = controls.markers.wrapping_add(1),
-    }
+/// Raw value and both ends of travel, as floating-point numbers, because the difference of two of any size
+/// may not be an i64. The ends are those of the map, then those that the device tells, then ±32767;
+/// nothing when both are the same.
+fn travelled(
+    event: &DeviceEvent,
+    raw_min: Option<i64>,
+    raw_max: Option<i64>,
+) -> Option<(f64, f64, f64)> {
+    let told = event.raw_min < event.raw_max;
+    let low = raw_min.unwrap_or(if told { event.raw_min } else { -32767 });
+    let high = raw_max.unwrap_or(if told { event.raw_max } else { 32767 });
+    (low != high).then_some((event.value as f64, low as f64, high as f64))
 }
 
-/// A button that is released frees the switch only if it held it.
-fn hold_nacelles(controls: &mut State, aft_norm: f64, pressed: bool) {
-    if pressed {
-        controls.nacelle_aft_norm = aft_norm;
-    } else if controls.nacelle_aft_norm * aft_norm > 0.0 {
-        controls.nacelle_aft_norm = 0.0;
-    }
+/// −1 … 1. Both distances before they are divided: then the mirrored raw value is the mirrored position.
+fn centred(raw: f64, low: f64, high: f64) -> f64 {
+    clamp(((raw - low) - (high - raw)) / (high - low), -1.0, 1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use alloc::vec;
+    use alloc::vec::Vec;
 
     use super::*;
 
     fn axis(control: AxisControl) -> AxisBinding {
         AxisBinding {
-            code: 1,
+            code: Codes::one(Code::Axis(1)),
             control,
             raw_min: Some(0),
             raw_max: Some(200),
+            raw_centre: None,
             inverted: false,
             dead_norm: 0.1,
             expo_norm: 0.0,
+            reach_norm: 1.0,
+            side: Side::Both,
+            rate_norm_per_s: 0.0,
+            fallback: false,
             when_unplugged: WhenUnplugged::Centre,
         }
     }
@@ -331,9 +443,25 @@ mod tests {
             device: vec![Device {
                 name: "stick".into(),
                 axis: vec![axis(AxisControl::StickAft)],
-                button: vec![ButtonBinding { code: 2, control: button }],
+                button: vec![pressing(button)],
+                ..Device::default()
             }],
         }
+    }
+
+    fn pressing(control: ButtonControl) -> ButtonBinding {
+        ButtonBinding {
+            code: Codes::one(Code::Key(2)),
+            control,
+            mode: None,
+            inverted: false,
+            beyond_norm: None,
+            rate_norm_per_s: None,
+        }
+    }
+
+    fn update(map: &Params, state: &State, events: &[DeviceEvent]) -> State {
+        super::update(map, state, events, crate::STEP_S)
     }
 
     fn at(binding: &AxisBinding, value: i64) -> f64 {
@@ -409,7 +537,7 @@ mod tests {
     fn an_unplugged_hat_lets_go_of_the_nacelles_even_where_axes_hold() {
         let hat =
             AxisBinding { when_unplugged: WhenUnplugged::Hold, ..axis(AxisControl::NacelleAft) };
-        let device = Device { name: "hat".into(), axis: vec![hat], button: vec![] };
+        let device = Device { axis: vec![hat], ..Device::default() };
         let map = Params { device: vec![device] };
         let held = update(&map, &State::default(), &[event(EventKind::Axis, 1, 200)]);
         assert_eq!(held.nacelle_aft_norm.to_bits(), f64::to_bits(1.0));
@@ -457,6 +585,7 @@ mod tests {
     /// The key is what maps are written with.
     #[test]
     fn a_key_of_the_list_is_the_name_in_a_map() {
+        use serde::Deserialize;
         use serde::de::value::{Error, StrDeserializer};
         for &control in AxisControl::ALL {
             let name = StrDeserializer::<Error>::new(control.facts().key);
@@ -493,6 +622,309 @@ mod tests {
         for (i, one) in moved.iter().enumerate() {
             assert_ne!(*one, State::default(), "{:?} moves nothing", AxisControl::ALL[i]);
             assert!(!moved[..i].contains(one), "{:?} moves what another does", AxisControl::ALL[i]);
+        }
+    }
+
+    /// A device whose controls are picked up, and one event of axis 1 at a raw value, of 0 to 200.
+    fn picked_up(binding: AxisBinding) -> Params {
+        let device = Device { axis: vec![binding], pick_up: Some(true), ..Device::default() };
+        Params { device: vec![device] }
+    }
+
+    fn lever() -> Params {
+        picked_up(axis(AxisControl::Collective))
+    }
+
+    fn near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-12
+    }
+
+    #[test]
+    fn a_lever_elsewhere_than_the_trim_waits_until_it_crosses() {
+        let map = lever();
+        let trimmed = State { collective_norm: 0.81, ..State::default() };
+        let found = update(&map, &trimmed, &[event(EventKind::AxisPosition, 1, 122)]);
+        assert!(near(found.collective_norm, 0.81));
+        let told: Vec<_> = waiting(&found).collect();
+        let expected = Waiting {
+            control: AxisControl::Collective,
+            at_norm: 0.81,
+            hardware_norm: Some(0.61),
+            up: true,
+        };
+        assert_eq!(told, [expected]);
+        assert!(near(found.pick_up.hardware.collective_norm, 0.61));
+        let moved = update(&map, &found, &[event(EventKind::Axis, 1, 100)]);
+        assert!(near(moved.collective_norm, 0.81) && waiting(&moved).count() == 1);
+        let crossed = update(&map, &moved, &[event(EventKind::Axis, 1, 180)]);
+        assert!(near(crossed.collective_norm, 0.9));
+        assert_eq!(crossed.pick_up, crate::controls::PickUp::default());
+        assert_eq!(crossed.force_trim, crate::controls::ForceTrim::default());
+        let followed = update(&map, &crossed, &[event(EventKind::Axis, 1, 20)]);
+        assert!(near(followed.collective_norm, 0.1));
+    }
+
+    #[test]
+    fn a_lever_that_comes_close_is_there() {
+        let map = lever();
+        let trimmed = State { collective_norm: 0.5, ..State::default() };
+        let near_by = update(&map, &trimmed, &[event(EventKind::AxisPosition, 1, 102)]);
+        assert_eq!(waiting(&near_by).count(), 0);
+        let below = update(&map, &trimmed, &[event(EventKind::AxisPosition, 1, 40)]);
+        let close = update(&map, &below, &[event(EventKind::Axis, 1, 98)]);
+        assert!(near(close.collective_norm, 0.49) && waiting(&close).count() == 0);
+    }
+
+    #[test]
+    fn a_log_of_before_pick_up_flies_as_it_was_flown() {
+        let mut map = lever();
+        map.device[0].pick_up = None;
+        let trimmed = State { collective_norm: 0.81, ..State::default() };
+        let found = update(&map, &trimmed, &[event(EventKind::AxisPosition, 1, 122)]);
+        assert_eq!(found, trimmed);
+        let moved = super::update(&map, &trimmed, &[event(EventKind::Axis, 1, 100)], 0.0);
+        assert!(near(moved.collective_norm, 0.5));
+    }
+
+    #[test]
+    fn what_is_moved_during_a_pause_is_picked_up_after_it() {
+        let map = lever();
+        let flown = update(&map, &State::default(), &[event(EventKind::Axis, 1, 100)]);
+        let paused = super::update(&map, &flown, &[event(EventKind::Axis, 1, 160)], 0.0);
+        assert!(near(paused.collective_norm, 0.5));
+        let after = update(&map, &paused, &[event(EventKind::Axis, 1, 150)]);
+        assert!(near(after.collective_norm, 0.5) && waiting(&after).count() == 1);
+        let back = update(&map, &after, &[event(EventKind::Axis, 1, 90)]);
+        assert!(near(back.collective_norm, 0.45));
+    }
+
+    #[test]
+    fn after_a_reset_the_lever_waits_where_the_start_has_it() {
+        let map = lever();
+        let flown = update(&map, &State::default(), &[event(EventKind::Axis, 1, 160)]);
+        let start = await_pick_up(&map, &flown, &State::default());
+        assert_eq!(start.collective_norm.to_bits(), 0);
+        assert!(waiting(&start).all(|waits| !waits.up) && waiting(&start).count() == 1);
+        // Reset once more while it waits: the hardware is still where it was.
+        let again = await_pick_up(&map, &start, &State { collective_norm: 0.9, ..start });
+        assert!(waiting(&again).all(|waits| waits.up) && waiting(&again).count() == 1);
+        let same = await_pick_up(&map, &flown, &flown);
+        assert_eq!(same, flown);
+    }
+
+    #[test]
+    fn nothing_waits_for_a_device_that_is_gone_and_one_that_comes_back_is_picked_up() {
+        let mut binding = axis(AxisControl::Collective);
+        binding.when_unplugged = WhenUnplugged::Hold;
+        let map = picked_up(binding);
+        let waits = update(
+            &map,
+            &State { collective_norm: 0.3, ..State::default() },
+            &[event(EventKind::AxisPosition, 1, 200)],
+        );
+        let gone = update(&map, &waits, &[event(EventKind::Disconnected, 0, 0)]);
+        assert_eq!((waiting(&gone).count(), gone.collective_norm), (0, 0.3));
+        let back = [event(EventKind::Connected, 0, 0), event(EventKind::AxisPosition, 1, 200)];
+        assert_eq!(waiting(&update(&map, &gone, &back)).count(), 1);
+    }
+
+    #[test]
+    fn a_flap_lever_is_at_the_nearest_detent_and_waits_like_others() {
+        let map = picked_up(axis(AxisControl::FlapLever));
+        for (raw, detent) in [(0, 0), (30, 0), (40, 1), (100, 2), (130, 2), (170, 3), (200, 3)] {
+            let state = update(&map, &State::default(), &[event(EventKind::Axis, 1, raw)]);
+            assert_eq!(state.flap_detent, detent, "{raw}");
+        }
+        let up = State { flap_detent: 2, ..State::default() };
+        let found = update(&map, &up, &[event(EventKind::AxisPosition, 1, 0)]);
+        assert_eq!((found.flap_detent, waiting(&found).count()), (2, 1));
+        let over = update(&map, &found, &[event(EventKind::Axis, 1, 200)]);
+        assert_eq!((over.flap_detent, waiting(&over).count()), (3, 0));
+    }
+
+    fn triggers(rate_norm_per_s: f64) -> Params {
+        let half = |code, side| AxisBinding {
+            code: Codes::one(Code::Axis(code)),
+            raw_max: Some(1023),
+            dead_norm: 0.0,
+            side,
+            rate_norm_per_s,
+            ..axis(AxisControl::PedalRight)
+        };
+        let device = Device {
+            axis: vec![half(5, Side::Upper), half(2, Side::Lower)],
+            pick_up: Some(true),
+            ..Device::default()
+        };
+        Params { device: vec![device] }
+    }
+
+    #[test]
+    fn two_triggers_are_pedals_that_rest_in_the_middle() {
+        let map = triggers(0.0);
+        let mut state = State::default();
+        let mut at = |code, raw| {
+            state = update(&map, &state, &[event(EventKind::Axis, code, raw)]);
+            state.pedal_right_norm
+        };
+        assert_eq!(at(5, 1023).to_bits(), f64::to_bits(1.0));
+        assert_eq!(at(2, 1023).to_bits(), 0, "both pressed");
+        assert_eq!(at(5, 0).to_bits(), f64::to_bits(-1.0));
+        assert_eq!(at(2, 0).to_bits(), 0);
+        assert!((at(2, 512) + 512.0 / 1023.0).abs() < 2e-4);
+        assert!((at(5, 512)).abs() < 2e-4);
+    }
+
+    #[test]
+    fn joined_triggers_wait_for_the_trim_as_a_lever_does() {
+        let map = triggers(0.0);
+        let trimmed = State { pedal_right_norm: 0.3, ..State::default() };
+        let at_rest = [event(EventKind::AxisPosition, 5, 0), event(EventKind::AxisPosition, 2, 0)];
+        let state = update(&map, &trimmed, &at_rest);
+        assert_eq!(waiting(&state).count(), 1);
+        let pressed = update(&map, &state, &[event(EventKind::Axis, 2, 1023)]);
+        assert_eq!((waiting(&pressed).count(), pressed.pedal_right_norm), (1, 0.3));
+        let other = [event(EventKind::Axis, 2, 0), event(EventKind::Axis, 5, 512)];
+        let crossed = update(&map, &pressed, &other);
+        assert_eq!(waiting(&crossed).count(), 0);
+        assert!((crossed.pedal_right_norm - 512.0 / 1023.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_stick_that_springs_back_moves_a_lever_at_a_rate_and_not_during_a_pause() {
+        let mut binding = axis(AxisControl::Collective);
+        binding.rate_norm_per_s = 0.5;
+        let map = picked_up(binding);
+        let mut state = update(&map, &State::default(), &[event(EventKind::Axis, 1, 200)]);
+        for _ in 1..125 {
+            state = update(&map, &state, &[]);
+        }
+        assert!((state.collective_norm - 0.25).abs() < 1e-12, "{}", state.collective_norm);
+        let paused = super::update(&map, &state, &[], 0.0);
+        assert_eq!(paused, state);
+        let rest = update(&map, &state, &[event(EventKind::Axis, 1, 100)]);
+        assert_eq!(update(&map, &rest, &[]), rest);
+        let found = update(&map, &rest, &[event(EventKind::AxisPosition, 1, 200)]);
+        assert_eq!(
+            update(&map, &found, &[]).collective_norm.to_bits(),
+            rest.collective_norm.to_bits()
+        );
+        let both = update(&triggers(1.0), &State::default(), &[event(EventKind::Axis, 5, 1023)]);
+        assert!(
+            near(both.pedal_right_norm, crate::STEP_S),
+            "once a tick: {}",
+            both.pedal_right_norm
+        );
+    }
+
+    #[test]
+    fn keys_deflect_a_stick_while_they_are_held() {
+        let key = |code, side| AxisBinding {
+            code: Codes::one(Code::Key(code)),
+            side,
+            reach_norm: 0.5,
+            ..axis(AxisControl::StickAft)
+        };
+        let device = Device {
+            axis: vec![key(108, Side::Upper), key(103, Side::Lower)],
+            ..Device::default()
+        };
+        let map = Params { device: vec![device] };
+        let down = update(&map, &State::default(), &[event(EventKind::Button, 108, 1)]);
+        assert!(near(down.stick_aft_norm, 0.5));
+        let up = [event(EventKind::Button, 103, 1), event(EventKind::Button, 108, 0)];
+        let up = update(&map, &down, &up);
+        assert!((up.stick_aft_norm + 0.5).abs() < 2e-4, "{}", up.stick_aft_norm);
+        let none = update(&map, &up, &[event(EventKind::Button, 103, 0)]);
+        assert_eq!(none.stick_aft_norm.to_bits(), 0);
+    }
+
+    #[test]
+    fn the_trim_is_where_the_stick_was_let_go_and_the_middle_takes_it_over() {
+        let mut map = stick(ButtonControl::ForceTrimRelease);
+        map.device[0].pick_up = Some(true);
+        map.device[0].axis[0].dead_norm = 0.0;
+        let held = [
+            event(EventKind::Axis, 1, 150),
+            event(EventKind::Button, 2, 1),
+            event(EventKind::Axis, 1, 160),
+            event(EventKind::Button, 2, 0),
+        ];
+        let let_go = update(&map, &State::default(), &held);
+        assert!(near(let_go.stick_aft_norm, 0.6) && near(let_go.force_trim.stick_aft_norm, 0.6));
+        let back = update(&map, &let_go, &[event(EventKind::Axis, 1, 130)]);
+        assert!(near(back.stick_aft_norm, 0.6) && waiting(&back).count() == 1);
+        let centre = update(&map, &back, &[event(EventKind::Axis, 1, 100)]);
+        assert!(near(centre.stick_aft_norm, 0.6) && waiting(&centre).count() == 0);
+        let pushed = update(&map, &centre, &[event(EventKind::Axis, 1, 70)]);
+        assert!(near(pushed.stick_aft_norm, 0.3));
+    }
+
+    #[test]
+    fn a_trim_switch_moves_stick_and_trim_while_it_is_held() {
+        let map = stick(ButtonControl::TrimForward);
+        let mut state = update(&map, &State::default(), &[event(EventKind::Button, 2, 1)]);
+        for _ in 1..250 {
+            state = update(&map, &state, &[]);
+        }
+        assert!((state.force_trim.stick_aft_norm + TRIM_NORM_PER_S).abs() < 1e-12);
+        assert!((state.stick_aft_norm + TRIM_NORM_PER_S).abs() < 1e-12);
+        let held = update(&map, &state, &[event(EventKind::Button, 2, 0)]);
+        assert_eq!(update(&map, &held, &[]), held);
+    }
+
+    #[test]
+    fn a_switch_that_stays_says_where_the_gear_is_and_keeps_it_when_it_is_gone() {
+        let map = stick(ButtonControl::GearDown);
+        let down = State { gear_down: 1, ..State::default() };
+        let found = update(&map, &down, &[event(EventKind::ButtonPosition, 2, 0)]);
+        assert_eq!(found.gear_down, 1);
+        let up = update(&map, &down, &[event(EventKind::Button, 2, 0)]);
+        assert_eq!(up.gear_down, 0);
+        let down = update(&map, &up, &[event(EventKind::Button, 2, 1)]);
+        let gone = update(&map, &down, &[event(EventKind::Disconnected, 0, 0)]);
+        assert_eq!(gone.gear_down, 1);
+    }
+
+    #[test]
+    fn a_latch_turns_over_and_an_inverted_switch_is_on_when_it_is_not_pressed() {
+        let mut map = stick(ButtonControl::NacelleForward);
+        map.device[0].button[0].mode = Some(Mode::Latch);
+        let tap = [event(EventKind::Button, 2, 1), event(EventKind::Button, 2, 0)];
+        let on = update(&map, &State::default(), &tap);
+        assert!(near(on.nacelle_aft_norm, -1.0));
+        assert!(near(update(&map, &on, &tap).nacelle_aft_norm, 0.0));
+        let mut map = stick(ButtonControl::GearDown);
+        map.device[0].button[0].inverted = true;
+        assert_eq!(update(&map, &State::default(), &tap).gear_down, 1);
+    }
+
+    #[test]
+    fn an_axis_beyond_its_mark_is_a_button_pressed_once() {
+        let mut map = stick(ButtonControl::FlapDown);
+        let hat = |beyond_norm, control| ButtonBinding {
+            code: Codes::one(Code::Axis(17)),
+            beyond_norm: Some(beyond_norm),
+            ..pressing(control)
+        };
+        map.device[0].button =
+            vec![hat(0.5, ButtonControl::FlapDown), hat(-0.5, ButtonControl::FlapUp)];
+        let mut state = State::default();
+        let mut at = |value| {
+            let event =
+                DeviceEvent { raw_min: -10, raw_max: 10, ..event(EventKind::Axis, 17, value) };
+            state = update(&map, &state, &[event]);
+            state.flap_detent
+        };
+        assert_eq!([8, 9, 10, 0, 10, -10, -9, 0].map(&mut at), [1, 1, 1, 1, 2, 1, 1, 1]);
+    }
+
+    #[test]
+    fn a_middle_of_its_own_has_full_travel_to_both_ends() {
+        let binding =
+            AxisBinding { raw_centre: Some(50), dead_norm: 0.0, ..axis(AxisControl::StickAft) };
+        for (raw, norm) in [(0, -1.0), (25, -0.5), (50, 0.0), (125, 0.5), (200, 1.0), (300, 1.0)] {
+            assert!(near(at(&binding, raw), norm), "{raw}");
         }
     }
 }

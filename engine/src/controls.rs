@@ -49,13 +49,14 @@ pub struct PilotControls {
 
 /// Pick-up: a control stays where the aircraft has it until the hardware crosses that position, so that a
 /// lever that stands elsewhere when a flight begins or a device is replaced does not make it jump.
-///
-/// Reserved in the recorded layout: no control waits yet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PickUp {
-    /// Controls that wait: the bit of each [`AxisControl`](crate::cockpit::AxisControl)'s place.
+    /// Bits from 0: controls that wait, each by its place in the list of
+    /// [`AxisControl`](crate::cockpit::AxisControl). Twelve bits each from 16: the lower axis of a joined
+    /// pair, 0 at rest, 4095 at its end, of stick aft, stick right, collective and pedals.
     pub waiting: u64,
-    /// Where the hardware stands.
+    /// Where the hardware of a control stands that waits, is a joined pair, or moves at a rate: its own
+    /// deflection, to which the trim comes.
     pub hardware: AxisPositions,
 }
 
@@ -66,7 +67,7 @@ pub struct AxisPositions {
     pub stick_aft_norm: f64,
     /// −1 full left … 1 full right.
     pub stick_right_norm: f64,
-    /// 0 down … 1 up.
+    /// 0 down … 1 up; at a rate −1 … 1.
     pub collective_norm: f64,
     /// −1 full left … 1 full right pedal.
     pub pedal_right_norm: f64,
@@ -75,11 +76,11 @@ pub struct AxisPositions {
 }
 
 /// Force trim: the positions in which stick and pedals are at rest.
-///
-/// Reserved in the recorded layout: nothing releases or moves them yet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ForceTrim {
-    /// 1 while the release button is pressed.
+    /// Bit 0: the release button is held. What else is remembered of switches: bits from 1, trim switches
+    /// that are held; from 8, waiting controls whose hardware stands above them; from 16, controls that
+    /// move at a rate; from 32, axes used as buttons that are pressed, in the order of the map.
     pub released: u64,
     /// Stick, aft positive.
     pub stick_aft_norm: f64,
@@ -87,6 +88,94 @@ pub struct ForceTrim {
     pub stick_right_norm: f64,
     /// Pedals, right positive.
     pub pedal_right_norm: f64,
+}
+
+/// One bit of a number that remembers several.
+fn put(bits: &mut u64, bit: u64, on: bool) {
+    *bits = *bits & !(1 << bit) | u64::from(on) << bit;
+}
+
+const LOWER_BITS: u64 = 12;
+const LOWER_MAX: u64 = (1 << LOWER_BITS) - 1;
+
+impl PickUp {
+    /// Whether the control at this place of the list waits.
+    pub fn waits(&self, place: u64) -> bool {
+        self.waiting >> place & 1 != 0
+    }
+
+    pub(crate) fn wait(&mut self, place: u64, on: bool) {
+        put(&mut self.waiting, place, on);
+    }
+
+    /// The lower axis of a joined pair, 0 … 1.
+    pub(crate) fn lower_norm(&self, place: u64) -> f64 {
+        (self.waiting >> (16 + place * LOWER_BITS) & LOWER_MAX) as f64 / LOWER_MAX as f64
+    }
+
+    /// Remembers it as exactly as there are bits.
+    pub(crate) fn put_lower(&mut self, place: u64, at_norm: f64) {
+        let shift = 16 + place * LOWER_BITS;
+        let counts = (at_norm * LOWER_MAX as f64 + 0.5) as u64;
+        self.waiting = self.waiting & !(LOWER_MAX << shift) | counts.min(LOWER_MAX) << shift;
+    }
+}
+
+impl ForceTrim {
+    const TRIM_SWITCHES: u64 = 0b111_1110;
+    const MOVING: u64 = 0xff_0000;
+
+    /// Whether the release button is held.
+    pub fn is_released(&self) -> bool {
+        self.released & 1 != 0
+    }
+
+    pub(crate) fn release(&mut self, on: bool) {
+        put(&mut self.released, 0, on);
+    }
+
+    /// Whether a trim switch is held: 0 aft, 1 forward, 2 right, 3 left, 4 and 5 pedals right and left.
+    pub(crate) fn holds(&self, switch: u64) -> bool {
+        self.released >> (1 + switch) & 1 != 0
+    }
+
+    pub(crate) fn hold(&mut self, switch: u64, on: bool) {
+        put(&mut self.released, 1 + switch, on);
+    }
+
+    /// Whether the hardware of the waiting control at this place stands above it.
+    pub(crate) fn is_above(&self, place: u64) -> bool {
+        self.released >> (8 + place) & 1 != 0
+    }
+
+    pub(crate) fn put_above(&mut self, place: u64, on: bool) {
+        put(&mut self.released, 8 + place, on);
+    }
+
+    /// Whether the control at this place moves at a rate.
+    pub(crate) fn moves(&self, place: u64) -> bool {
+        self.released >> (16 + place) & 1 != 0
+    }
+
+    pub(crate) fn put_moving(&mut self, place: u64, on: bool) {
+        put(&mut self.released, 16 + place, on);
+    }
+
+    /// Whether any control moves without an event.
+    pub(crate) fn anything_moves(&self) -> bool {
+        self.released & (Self::TRIM_SWITCHES | Self::MOVING) != 0
+    }
+
+    /// Whether an axis used as a button is pressed; beyond 32 of them they are not remembered.
+    pub(crate) fn is_pressed(&self, button: u64) -> bool {
+        button < 32 && self.released >> (32 + button) & 1 != 0
+    }
+
+    pub(crate) fn put_pressed(&mut self, button: u64, on: bool) {
+        if button < 32 {
+            put(&mut self.released, 32 + button, on);
+        }
+    }
 }
 
 /// What the actuators are asked for.

@@ -47,7 +47,8 @@ fn tick(
     next: &mut State,
 ) -> (Blocks, Commands) {
     next.tick = state.tick.wrapping_add(1);
-    next.cockpit = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events);
+    let passed_s = if inputs.world.paused == 0 { STEP_S } else { 0.0 };
+    next.cockpit = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events, passed_s);
 
     // Sampled once, held through the tick.
     let (environment, air) = weather(state, &inputs.world);

@@ -27,7 +27,7 @@ pub struct Flight {
     pub hands: Vec<Box<dyn Hands>>,
     /// Devices that deliver events of their own.
     #[cfg(feature = "sticks")]
-    pub sticks: Option<crate::sticks::Sticks>,
+    pub sticks: Option<crate::devices::Devices>,
     /// The log.
     pub out: PathBuf,
     /// Whether an existing log may be overwritten.

@@ -156,7 +156,7 @@ mod tests {
                 save: &mut false,
             },
         );
-        *state = cockpit::update(&map(), state, &events);
+        *state = cockpit::update(&map(), state, &events, engine::STEP_S);
         events.len()
     }
 

@@ -8,6 +8,8 @@ mod clock;
 mod clock_check;
 mod crew;
 pub mod debrief;
+#[cfg(feature = "sticks")]
+pub mod devices;
 mod end;
 mod flight;
 pub mod flightgear_controls;
@@ -25,8 +27,6 @@ pub mod script;
 mod self_check;
 pub mod situation;
 pub mod statistics;
-#[cfg(feature = "sticks")]
-pub mod sticks;
 pub mod writer;
 
 pub use clock::{Pace, RealTime, Woken};

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
 
+use engine::controls::PickUp;
 use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
 use flightgear::{Lamps, Link, Picture, Recording as Lamp, Scene};
@@ -56,7 +57,7 @@ pub(crate) struct Live<'a, S> {
     outputs: Outputs,
     crew: Crew,
     #[cfg(feature = "sticks")]
-    sticks: Option<crate::sticks::Sticks>,
+    sticks: Option<crate::devices::Devices>,
     restarts: Restarts,
     /// What the tick under way begins with in place of the state before it.
     restarted: Option<RestartRecord>,
@@ -93,6 +94,9 @@ fn begun_with(situation: &Situation) -> (State, World) {
     }
     state.tick = 0;
     state.cockpit.markers = 0;
+    // Hardware tells where it stands, and that is not where it stood.
+    state.cockpit.pick_up = PickUp::default();
+    state.cockpit.force_trim.released = 0;
     (state, world)
 }
 
@@ -115,7 +119,12 @@ where
     S: FnMut(&Aircraft, &State, &Inputs) -> (State, Outputs),
 {
     /// Begins the log and the threads beside the loop.
-    pub(crate) fn begin(flight: Flight, progress: &'a Progress, step: S) -> Result<Self, FlyError> {
+    pub(crate) fn begin(
+        #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to take"))]
+        mut flight: Flight,
+        progress: &'a Progress,
+        step: S,
+    ) -> Result<Self, FlyError> {
         let aircraft = flight.aircraft;
         let world = flight.start.world.world();
         let (state, world_of_start) = match &flight.situation {
@@ -133,15 +142,8 @@ where
             &state,
         )?;
         #[cfg(feature = "sticks")]
-        for (device, name) in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
-            let (device, name, tick) = (*device, name.clone(), state.tick);
-            writer.device(&DeviceIdentity {
-                tick,
-                device,
-                name,
-                mapped: 1,
-                ..Default::default()
-            })?;
+        for device in flight.sticks.iter().flat_map(|sticks| &sticks.found) {
+            writer.device(&DeviceIdentity { tick: state.tick, ..device.clone() })?;
         }
         output.begun()?;
         let (say, said) = mpsc::channel();
@@ -151,13 +153,20 @@ where
         }));
         progress.listen(said);
         let (tell, told) = mpsc::channel();
+        #[cfg(feature = "sticks")]
+        let later = flight.sticks.as_mut().and_then(|sticks| sticks.later.take());
+        #[cfg(not(feature = "sticks"))]
+        let later = None;
         let saver = Saver::beside(&flight.out, &aircraft.name);
-        let mut recording = Recording::start(writer, &aircraft, &state, told, saver);
+        let mut recording = Recording::start(writer, &aircraft, &state, told, saver, later);
         let found = Arc::clone(&progress.mismatches);
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
         // After the other threads have begun: what is claimed is for the loop.
-        let refused = flight.real_time.map_or_else(Vec::new, |wanted| claim_real_time(wanted.cpu));
+        let mut refused =
+            flight.real_time.map_or_else(Vec::new, |wanted| claim_real_time(wanted.cpu));
+        #[cfg(feature = "sticks")]
+        refused.extend(flight.sticks.iter_mut().flat_map(|sticks| sticks.refused.drain(..)));
         let outputs = observe(&aircraft, &state, &world);
         recording.show(&outputs, state.plant.attitude);
         let crew = Crew::new(flight.hands, world_of_start);
@@ -254,6 +263,7 @@ where
         #[cfg(feature = "sticks")]
         if let Some(sticks) = &mut self.sticks {
             sticks.take(tick, &mut self.events, EVENTS_A_TICK);
+            self.progress.devices(&self.events);
         }
         let phase = self.crew.act(tick, &self.outputs, &mut self.events);
         self.events_taken += self.events.len() as u64;
@@ -264,7 +274,8 @@ where
     /// Goes on from another state if the crew wants it.
     fn restart(&mut self) -> Option<RestartRecord> {
         let restart = self.crew.restart.take()?;
-        let made = self.restarts.made(&restart, &self.state, &self.crew.world);
+        let made =
+            self.restarts.made(&restart, &self.aircraft.cockpit, &self.state, &self.crew.world);
         let (record, world) = made?;
         self.state = record.state;
         self.crew.world = world;

@@ -1,7 +1,8 @@
 //! What differs from system to system, and nothing else: the clock that the loop sleeps by, what a thread
 //! may claim, the signals that end a flight, named pipes.
 //!
-//! Each system has a file here that offers the same functions; no other file asks which system it is.
+//! Each system has a file here that offers the same functions; no other file asks which system it is,
+//! but for the devices, which have a back end each.
 
 #[cfg(target_os = "linux")]
 mod linux;

@@ -5,7 +5,8 @@ use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use engine::Outputs;
-use engine::inputs::World;
+use engine::cockpit::{self, Waiting};
+use engine::inputs::{DeviceEvent, EventKind, World};
 use logs::records::{Happening, TimingRecord};
 use logs::view::Level;
 
@@ -83,6 +84,11 @@ pub struct Progress {
     log_failed: AtomicBool,
     slips: AtomicU64,
     slipped_ns: AtomicU64,
+    /// Devices that are unplugged, a bit each.
+    unplugged: AtomicU64,
+    /// Controls that wait for pick-up and are to go up to it, and down, a bit each by their places.
+    waiting_up: AtomicU64,
+    waiting_down: AtomicU64,
     /// Neither side waits for the other.
     shown: Mutex<Shown>,
     told: Mutex<Option<Receiver<Told>>>,
@@ -116,6 +122,12 @@ pub struct Snapshot {
     pub slipped_s: f64,
     /// Seconds of flight that were not the same when reflown in flight.
     pub mismatches: u64,
+    /// Devices of the map that were there and are not, a bit each by their numbers.
+    pub unplugged: u64,
+    /// Controls that wait for pick-up, a bit each by their places: the hardware has to come up to them.
+    pub waiting_up: u64,
+    /// The same, down.
+    pub waiting_down: u64,
 }
 
 impl Progress {
@@ -156,6 +168,9 @@ impl Progress {
             slips: self.slips.load(Ordering::Relaxed),
             slipped_s: self.slipped_ns.load(Ordering::Relaxed) as f64 * 1e-9,
             mismatches: self.mismatches.load(Ordering::Relaxed),
+            unplugged: self.unplugged.load(Ordering::Relaxed),
+            waiting_up: self.waiting_up.load(Ordering::Relaxed),
+            waiting_down: self.waiting_down.load(Ordering::Relaxed),
         }
     }
 
@@ -188,6 +203,18 @@ impl Progress {
         self.slips.fetch_add(1, Ordering::Relaxed);
     }
 
+    /// Devices that came or went.
+    pub(crate) fn devices(&self, events: &[DeviceEvent]) {
+        for event in events.iter().filter(|event| event.device < 64) {
+            let bit = 1 << event.device;
+            match EventKind::from_u64(event.kind) {
+                Some(EventKind::Disconnected) => self.unplugged.fetch_or(bit, Ordering::Relaxed),
+                Some(EventKind::Connected) => self.unplugged.fetch_and(!bit, Ordering::Relaxed),
+                _ => continue,
+            };
+        }
+    }
+
     /// Written by the loop, without waiting.
     pub(crate) fn show(&self, outputs: &Outputs, phase: u64, overruns: u64, log_failed: bool) {
         let put = |bits: &AtomicU64, value: f64| bits.store(value.to_bits(), Ordering::Relaxed);
@@ -198,5 +225,11 @@ impl Progress {
         self.phase.store(phase, Ordering::Relaxed);
         self.overruns.store(overruns, Ordering::Relaxed);
         self.log_failed.store(log_failed, Ordering::Relaxed);
+        let (mut up, mut down) = (0, 0);
+        for Waiting { control, up: is_up, .. } in cockpit::waiting(&outputs.cockpit) {
+            *(if is_up { &mut up } else { &mut down }) |= 1 << control as u64;
+        }
+        self.waiting_up.store(up, Ordering::Relaxed);
+        self.waiting_down.store(down, Ordering::Relaxed);
     }
 }

@@ -4,6 +4,7 @@
 //! stays where it is, and so does the number of markers.
 
 use engine::State;
+use engine::cockpit;
 use engine::controls::PilotControls;
 use engine::inputs::World;
 use logs::records::{RestartCause, RestartRecord};
@@ -64,6 +65,7 @@ impl Restarts {
     pub(crate) fn made(
         &self,
         restart: &Restart,
+        map: &cockpit::Params,
         now: &State,
         world: &World,
     ) -> Option<(RestartRecord, World)> {
@@ -76,7 +78,8 @@ impl Restarts {
             }
             Restart::Situation(situation) => (RestartCause::Situation, situation),
         };
-        let record = RestartRecord { cause: cause as u64, state: placed(&situation.state, now) };
+        let record =
+            RestartRecord { cause: cause as u64, state: placed(&situation.state, map, now) };
         let world = if cause == RestartCause::Reposition {
             *world
         } else {
@@ -86,10 +89,10 @@ impl Restarts {
     }
 }
 
-/// A state in the place of the one now.
-fn placed(state: &State, now: &State) -> State {
-    let PilotControls { markers, pick_up, .. } = now.cockpit;
-    let cockpit = PilotControls { markers, pick_up, ..state.cockpit };
+/// A state in the place of the one now; what the hardware does not stand at waits for pick-up.
+fn placed(state: &State, map: &cockpit::Params, now: &State) -> State {
+    let controls = cockpit::await_pick_up(map, &now.cockpit, &state.cockpit);
+    let cockpit = PilotControls { markers: now.cockpit.markers, ..controls };
     State { tick: now.tick, cockpit, ..*state }
 }
 
@@ -117,15 +120,16 @@ mod tests {
     #[test]
     fn time_and_markers_go_on() {
         let world = World { turbulence_mps: 1.0, gust_start_tick: 5, ..World::default() };
+        let map = cockpit::Params::default();
         let mut restarts = Restarts::new(Situation { state: at_tick(0, 0), world });
         let now = World { paused: 1, ..World::default() };
-        let (record, world) = restarts.made(&Restart::Start, &at_tick(700, 2), &now).unwrap();
+        let (record, world) = restarts.made(&Restart::Start, &map, &at_tick(700, 2), &now).unwrap();
         assert_eq!((record.state.tick, record.state.cockpit.markers), (700, 2));
         assert_eq!(record.state.plant.fuel_kg, 0.0);
         assert_eq!((world.paused, world.gust_start_tick), (1, 705));
-        assert!(restarts.made(&Restart::Marker, &at_tick(700, 2), &now).is_none());
+        assert!(restarts.made(&Restart::Marker, &map, &at_tick(700, 2), &now).is_none());
         restarts.look(1, &at_tick(300, 2), &now);
-        let (record, _) = restarts.made(&Restart::Marker, &at_tick(700, 2), &now).unwrap();
+        let (record, _) = restarts.made(&Restart::Marker, &map, &at_tick(700, 2), &now).unwrap();
         assert_eq!((record.state.tick, record.state.plant.fuel_kg), (700, 300.0));
     }
 }

@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 use engine::frames::Attitude;
 use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Outputs, State};
+use logs::devices::DeviceIdentity;
 use logs::records::{Happening, InputsRecord, RestartRecord, TIMING_FACTS, TimingRecord};
 use logs::{Closed, FlightWriter, LogError, Narrator, Observed};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
@@ -89,13 +90,14 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Starts the thread; `mismatches` is what a self-check finds.
+    /// Starts the thread; `mismatches` is what a self-check finds, `devices` are those that come later.
     pub fn start(
         writer: FlightWriter,
         aircraft: &Aircraft,
         initial: &State,
         mismatches: Receiver<Mismatch>,
         saver: Saver,
+        devices: Option<Receiver<DeviceIdentity>>,
     ) -> Self {
         let filling = ToRecord::State(*initial, Observed::default());
         let (ring, entries) = touched_ring(RING_ENTRIES, filling);
@@ -111,6 +113,7 @@ impl Recording {
             views,
             narrator: Narrator::new(initial, &aircraft.envelope.airframe),
             mismatches,
+            devices,
             saver,
             world: World::default(),
             facts: Arc::clone(&facts),
@@ -267,6 +270,7 @@ struct Scribe {
     views: Consumer<(Outputs, Attitude)>,
     narrator: Narrator,
     mismatches: Receiver<Mismatch>,
+    devices: Option<Receiver<DeviceIdentity>>,
     saver: Saver,
     /// The world of the tick under way.
     world: World,
@@ -321,6 +325,11 @@ impl Scribe {
             let written = self.write(&entry);
             self.keep(written);
             self.look_at_the_clock();
+        }
+        while let Some(Ok(device)) = self.devices.as_ref().map(Receiver::try_recv) {
+            let device = DeviceIdentity { tick: self.tick, ..device };
+            let written = self.writer.as_mut().map_or(Ok(()), |writer| writer.device(&device));
+            self.keep(written);
         }
         while let Ok(mismatch) = self.mismatches.try_recv() {
             let written = self.mismatch(&mismatch);

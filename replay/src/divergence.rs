@@ -1,6 +1,6 @@
 //! Where a reflown flight stops being the recorded one, and what became of it.
 
-use engine::cockpit::Params as Cockpit;
+use engine::cockpit::{Code, Params as Cockpit};
 use engine::inputs::{DeviceEvent, EventKind};
 use logs::fields::Value;
 use logs::records::InputsRecord;
@@ -170,21 +170,15 @@ impl LastInput {
 
 /// What an event moves.
 fn moves(map: &Cockpit, event: &DeviceEvent) -> String {
-    let Some(device) = usize::try_from(event.device).ok().and_then(|at| map.device.get(at)) else {
-        return String::new();
+    let code = match EventKind::from_u64(event.kind) {
+        Some(EventKind::Axis) => Code::Axis(event.code),
+        Some(EventKind::Button) => Code::Key(event.code),
+        _ => return String::new(),
     };
-    let controls: Vec<&str> = match EventKind::from_u64(event.kind) {
-        Some(EventKind::Axis) => {
-            let axes = device.axis.iter().filter(|axis| axis.code == event.code);
-            axes.map(|axis| axis.control.facts().words).collect()
-        }
-        Some(EventKind::Button) => {
-            let buttons = device.button.iter().filter(|button| button.code == event.code);
-            buttons.map(|button| button.control.facts().words).collect()
-        }
-        _ => Vec::new(),
-    };
-    controls.join(", ")
+    let Some(device) = map.device(event.device) else { return String::new() };
+    let axes = device.axes_of(code).map(|axis| axis.control.facts().words);
+    let buttons = device.buttons_of(code).map(|button| button.control.facts().words);
+    axes.chain(buttons).collect::<Vec<_>>().join(", ")
 }
 
 /// The states after the first tick that differs, as messages.

@@ -126,10 +126,10 @@ fn button(event: &DeviceEvent, map: &cockpit::Params) -> Option<Found> {
     if EventKind::from_u64(event.kind) != Some(EventKind::Button) {
         return None;
     }
-    let device = usize::try_from(event.device).ok().and_then(|number| map.device.get(number));
-    let bound = device.and_then(|d| d.button.iter().find(|b| b.code == event.code));
+    let code = cockpit::Code::Key(event.code);
+    let bound = map.device(event.device).and_then(|device| device.buttons_of(code).next());
     let name = bound.map_or_else(
-        || format!("0x{:x} of device {}", event.code, event.device),
+        || format!("{} of device {}", code.name(), event.device),
         |bound| bound.control.facts().words.to_string(),
     );
     let did = if event.value != 0 { "pressed" } else { "released" };

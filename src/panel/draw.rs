@@ -3,7 +3,6 @@
 use std::collections::VecDeque;
 
 use engine::STEP_S;
-use engine::controls::PilotControls;
 use engine::inputs::World;
 use engine::math::{atan2, max, sqrt};
 use engine::outputs::Severity;
@@ -270,23 +269,22 @@ fn bar(count: usize, at_norm: f64, low_norm: f64, waits_at_norm: Option<f64>) ->
 /// Where the pilot holds everything.
 fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let o = &look.shown.outputs;
-    let PilotControls { pick_up, .. } = o.cockpit;
     let c = &o.cockpit;
-    let waits = |control: engine::cockpit::AxisControl, at_norm: f64| {
-        (pick_up.waiting & 1 << (control as u64) != 0).then_some(at_norm)
+    let waits = |control: engine::cockpit::AxisControl| {
+        let mut waiting = engine::cockpit::waiting(c);
+        waiting.find(|waits| waits.control == control).and_then(|waits| waits.hardware_norm)
     };
     use engine::cockpit::AxisControl as A;
-    let h = &pick_up.hardware;
     // Odd, so that there is a middle.
     let cells = usize::from(area.width.saturating_sub(AROUND_BAR).clamp(9, 41)) / 2 * 2 + 1;
     let axis = |low, at_norm, low_norm, waits_at_norm, high| {
         (low, bar(cells, at_norm, low_norm, waits_at_norm), high)
     };
     let rows = [
-        axis("fwd", c.stick_aft_norm, -1.0, waits(A::StickAft, h.stick_aft_norm), "aft"),
-        axis("left", c.stick_right_norm, -1.0, waits(A::StickRight, h.stick_right_norm), "right"),
-        axis("left", c.pedal_right_norm, -1.0, waits(A::PedalRight, h.pedal_right_norm), "right"),
-        axis("down", c.collective_norm, 0.0, waits(A::Collective, h.collective_norm), "up"),
+        axis("fwd", c.stick_aft_norm, -1.0, waits(A::StickAft), "aft"),
+        axis("left", c.stick_right_norm, -1.0, waits(A::StickRight), "right"),
+        axis("left", c.pedal_right_norm, -1.0, waits(A::PedalRight), "right"),
+        axis("down", c.collective_norm, 0.0, waits(A::Collective), "up"),
     ];
     let names = ["stick", "stick", "pedal", "lever"];
     let mut lines: Vec<Line<'_>> = names
@@ -309,7 +307,7 @@ fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     lines.push(Line::raw(format!("SCAS {scas}  parking brake {parking}")));
     let brakes = 100.0 * max(c.brake_norm.left, c.brake_norm.right);
     lines.push(Line::raw(format!("toe brakes {brakes:.0} %")));
-    if pick_up.waiting != 0 {
+    if engine::cockpit::waiting(c).next().is_some() {
         lines.pop();
         lines.push(Line::styled("○ waits to be picked up", look.caution()));
     }

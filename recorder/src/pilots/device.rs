@@ -54,18 +54,20 @@ impl VirtualDevice {
         };
         let travel = clamp(if axis.inverted { 1.0 - travel } else { travel }, 0.0, 1.0);
         let raw = low + (travel * (high - low) as f64).round() as i64;
-        match self.sent.iter_mut().find(|(code, _)| *code == axis.code) {
+        let code = axis.code.number();
+        match self.sent.iter_mut().find(|(sent_code, _)| *sent_code == code) {
             Some((_, sent)) if *sent == raw => return,
             Some((_, sent)) => *sent = raw,
-            None => self.sent.push((axis.code, raw)),
+            None => self.sent.push((code, raw)),
         }
-        reach.send(self.number, EventKind::Axis, axis.code, raw);
+        reach.send(self.number, EventKind::Axis, code, raw);
     }
 
     /// Presses or releases a button.
     pub fn press(&self, reach: &mut Reach<'_>, control: ButtonControl, pressed: bool) {
         if let Some(button) = self.device.button.iter().find(|button| button.control == control) {
-            reach.send(self.number, EventKind::Button, button.code, i64::from(pressed));
+            let pressed = i64::from(pressed);
+            reach.send(self.number, EventKind::Button, button.code.number(), pressed);
         }
     }
 

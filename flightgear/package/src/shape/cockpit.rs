@@ -16,7 +16,7 @@ pub const SEAT_M: f64 = 0.36;
 /// Pilot's eye over the seat's middle: station and waterline, m.
 pub const EYE_M: [f64; 2] = [4.95, 1.83];
 /// Where the sticks turn, m.
-pub const STICK_M: [f64; 2] = [4.52, 1.03];
+pub const STICK_M: [f64; 2] = [4.60, 0.98];
 /// Where the power levers turn: station, waterline, and how far left of the seat, m.
 pub const LEVER_M: [f64; 3] = [5.02, 1.22, 0.27];
 /// The pedals' middle, m.
@@ -113,7 +113,7 @@ fn panel() -> Mesh {
     prism(
         &mut mesh,
         material::BLACK,
-        &[[4.33, 1.668], [4.33, 1.682], [4.25, 1.70], [3.90, 1.685], [3.90, 1.655]],
+        &[[4.28, 1.668], [4.28, 1.682], [4.22, 1.70], [3.90, 1.685], [3.90, 1.655]],
         [-0.60, 0.60],
     );
     // The pedestal between the seats.
@@ -298,8 +298,8 @@ fn warning_lamp() -> Mesh {
         let right = side * SEAT_M;
         mesh.cuboid(
             material::LIGHT_RED,
-            [4.330, right - 0.018, 1.669],
-            [4.334, right + 0.018, 1.680],
+            [4.280, right - 0.018, 1.669],
+            [4.284, right + 0.018, 1.680],
         );
     }
     mesh
