@@ -17,12 +17,16 @@ use flightgear::{Link, Receiver};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use logs::output;
+use logs::records::Happening;
+use logs::view::Level;
 use recorder::flightgear_controls::FlightGearControls;
 use recorder::keyboard::{Keyboard, Orders};
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::situation;
-use recorder::{End, Flight, Landing, Progress, RealTime, Restart, Snapshot, check_clock, fly};
+use recorder::{
+    End, Flight, Landing, Progress, RealTime, Restart, Shown, Snapshot, Told, check_clock, fly,
+};
 
 use crate::flightgear::Scene;
 use crate::ground::{self, Whose};
@@ -207,7 +211,10 @@ pub fn run(args: &Args) -> Result<Status> {
     if args.flightgear_controls {
         plan.add_flightgear(&mut map)?;
     }
-    if args.keyboard {
+    let real_time = plan.flight.real_time.is_some();
+    plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
+    if plan.panel {
+        // Whoever else flies: freeze, reset, failures and weather are on keys.
         plan.add_keyboard(&mut map)?;
     }
     plan.set_map(map)?;
@@ -216,8 +223,6 @@ pub fn run(args: &Args) -> Result<Status> {
     {
         bail!("the {name} pilot never lands: give --duration SECONDS with --fast");
     }
-    let real_time = plan.flight.real_time.is_some();
-    plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
     let _linked = plan.connect()?;
     let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
@@ -448,14 +453,24 @@ impl Plan {
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
         let Self { flight, pipe: _pipe, phases, crew, .. } = self;
+        let real_time = flight.real_time.is_some();
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
+            let mut punctual = Punctual::default();
             while !flying.is_finished() {
                 thread::sleep(Duration::from_millis(100));
                 let now = progress.now();
+                if let Some(warning) = progress.shown().and_then(|shown| punctual.look(&shown)) {
+                    bar.suspend(|| complain!("WARNING: {warning}"));
+                }
                 bar.set_message(line(&now, &phases));
                 bar.tick();
+                // As fast as it goes, nobody could act on it.
+                for event in progress.told().iter().filter(|event| real_time && is_new(event)) {
+                    let at_s = event.tick as f64 * STEP_S;
+                    bar.suspend(|| complain!("{at_s:.1} s: {}", event.words));
+                }
                 for warning in warnings(&told, &now) {
                     bar.suspend(|| complain!("WARNING: {warning}"));
                 }
@@ -569,6 +584,48 @@ fn line(now: &Snapshot, phases: &[&str]) -> String {
         now.overruns,
         phase.unwrap_or("")
     )
+}
+
+/// Whether an event is for the crew, and is told nowhere else.
+fn is_new(event: &Told) -> bool {
+    let elsewhere = [Happening::Slip, Happening::SelfCheck, Happening::GaveUp];
+    event.level != Level::Info && !elsewhere.contains(&event.what)
+}
+
+/// Ticks between two warnings of lateness: ten seconds.
+const LATE_AGAIN_TICKS: u64 = 2500;
+
+/// Lateness, told when it begins and not again for a while.
+#[derive(Default)]
+struct Punctual {
+    told_tick: Option<u64>,
+}
+
+impl Punctual {
+    /// What is to be told of the last second.
+    fn look(&mut self, shown: &Shown) -> Option<String> {
+        let tick = shown.outputs.tick;
+        let ms = |ns: u64| ns as f64 * 1e-6;
+        let (late_ms, latency_ms) = (ms(shown.late_ns), ms(shown.latency_ns));
+        let limit_ms = report::LATENCY_LIMIT_MS;
+        if self.told_tick.is_some_and(|told| tick < told + LATE_AGAIN_TICKS) {
+            return None;
+        }
+        let warning = if latency_ms > limit_ms {
+            format!(
+                "an input needed {latency_ms:.0} ms to the picture; {limit_ms:.0} ms are the limit of a \
+                 simulator"
+            )
+        } else if late_ms > STEP_S * 1e3 {
+            format!(
+                "ticks up to {late_ms:.1} ms late within a second; `tiltrotor doctor` says what to change"
+            )
+        } else {
+            return None;
+        };
+        self.told_tick = Some(tick);
+        Some(warning)
+    }
 }
 
 /// What the crew is to know, and has not been told.

@@ -21,7 +21,7 @@ pub fn refusal(error: &ReplayError) -> String {
 }
 
 /// Latency beyond which CS-FSTD(A) refuses a simulator.
-const LATENCY_LIMIT_MS: f64 = 150.0;
+pub const LATENCY_LIMIT_MS: f64 = 150.0;
 
 /// Heading as a compass shows it, 0..360.
 pub fn compass_deg(heading_rad: f64) -> f64 {

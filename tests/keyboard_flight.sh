@@ -14,7 +14,8 @@ tmux="tmux -L tiltrotor-$$"
 trap '$tmux kill-server 2>/dev/null || true; rm -rf "$folder"' EXIT
 
 $tmux new-session -d -s flight -x 100 -y 32 \
-    "cd $folder && $program fly --keyboard --no-flightgear --out flight.mcap >said; echo \$? >status"
+    "cd $folder && $program fly --keyboard --no-flightgear --out flight.mcap >said; echo \$? >status; \
+    stty -a >terminal"
 
 key() { $tmux send-keys -t flight "$@"; }
 picture() { $tmux capture-pane -p -t flight; }
@@ -85,11 +86,36 @@ until [ -s "$folder/status" ]; do
     sleep 0.2
 done
 cat "$folder/said"
+# The terminal is as it was.
+sleep 1
+grep -qE '[^-]icanon' "$folder/terminal" && grep -qE '[^-]echo ' "$folder/terminal" ||
+    { echo "the terminal was not given back:"; cat "$folder/terminal"; exit 1; }
 [ "$(cat "$folder/status")" = 0 ]
 grep -q '^debrief    touchdown' "$folder/said"
 if grep -qE "HARD|hull" "$folder/said"; then echo "that was no landing"; exit 1; fi
 "$program" verify "$folder/flight.mcap"
 "$program" log summary "$folder/flight.mcap"
+# A signal lands the flight, and gives the terminal back as well.
+$tmux new-session -d -s signal -x 100 -y 32 "cd $folder && \
+    sh -c 'echo \$\$ >process; exec $program fly --keyboard --no-flightgear --out signal.mcap >said2'; \
+    echo \$? >status2; stty -a >terminal2; sleep 5"
+tries=0
+until $tmux capture-pane -p -t signal | grep -q ' height '; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || { echo "no panel:"; $tmux capture-pane -p -t signal; exit 1; }
+    sleep 0.2
+done
+kill -TERM "$(cat "$folder/process")"
+tries=0
+until [ -s "$folder/terminal2" ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || { echo "it does not end by a signal:"; exit 1; }
+    sleep 0.2
+done
+[ "$(cat "$folder/status2")" = 0 ]
+grep -q 'end        ended by a signal: SIGTERM' "$folder/said2"
+grep -qE '[^-]icanon' "$folder/terminal2" && grep -qE '[^-]echo ' "$folder/terminal2"
+"$program" verify "$folder/signal.mcap"
 if [ -n "${PICTURE:-}" ]; then cp "$folder/picture" "$PICTURE"; fi
 if [ -n "${LOG:-}" ]; then cp "$folder/flight.mcap" "$LOG"; fi
 echo "flown by keyboard: took off, hovered, landed; verified exact"

@@ -7,11 +7,14 @@ mod common;
 
 use std::path::{Path, PathBuf};
 
-use common::{OK, folder, text, tiltrotor, verify};
+use common::{
+    DIVERGED, Forgery, INCOMPLETE, OK, UNUSABLE, chain_anew, folder, place_of, text, tiltrotor,
+    verify,
+};
 use engine::cockpit;
 use engine::inputs::Failures;
 use engine::{Outputs, State};
-use logs::records::Happening;
+use logs::records::{Happening, RESTART, RestartRecord};
 use logs::{FlightReader, Identity, OpenOptions, Setup};
 use recorder::keyboard::{KeyAction, Keyboard, Order, Orders};
 use recorder::{Flight, Hands, Landing, Progress, Reach, Restart, situation};
@@ -267,6 +270,61 @@ fn a_what_if_and_a_clip_of_a_flight_with_a_reset_keep_it() {
     let said = tiltrotor(&[&["whatif", text(&log)], &set[..]].concat()).ends(OK);
     said.says("baseline: flown unchanged, the recorded inputs give the recorded states");
     assert_eq!(events(&proven(&other), Happening::Restarted), [(300, 1)]);
+}
+
+#[test]
+fn a_restart_that_somebody_changed_took_away_or_doubled_is_found() {
+    let log = log("keys-forged");
+    let keys = vec![press(10, KeyAction::StickForward), press(300, KeyAction::ResetToStart)];
+    fly(&log, "hover-50ft", None, keys, 400);
+    let forged = log.with_file_name("forged.mcap");
+    let fuel = place_of::<RestartRecord>("state.plant.fuel_kg");
+
+    let mut changed = Forgery::of(&log);
+    changed.bytes(RESTART, 0)[fuel] ^= 1;
+    changed.write(&forged);
+    verify(&forged).ends(DIVERGED).says("altered");
+    // Whoever forms the digests anew is betrayed by the motion.
+    chain_anew(&mut changed);
+    changed.write(&forged);
+    verify(&forged).ends(DIVERGED).says("301");
+
+    let mut taken = Forgery::of(&log);
+    let place = taken.places(RESTART)[0];
+    taken.messages.remove(place);
+    taken.write(&forged);
+    verify(&forged).ends(DIVERGED).says("altered");
+
+    let mut doubled = Forgery::of(&log);
+    let again = doubled.messages[place].clone();
+    doubled.messages.insert(place, again);
+    doubled.write(&forged);
+    verify(&forged).ends(UNUSABLE).says("a message of /restart for tick 300, out of its place");
+
+    let mut late = Forgery::of(&log);
+    let again = late.messages[place].clone();
+    let end = late.messages.len();
+    late.messages.insert(end, again);
+    late.write(&forged);
+    let status = verify(&forged).status;
+    assert_ne!(status, Some(OK));
+}
+
+#[test]
+fn a_flight_with_a_restart_that_was_cut_is_recovered_beyond_it() {
+    let log = log("keys-cut");
+    let keys = vec![press(10, KeyAction::StickForward), press(300, KeyAction::ResetToStart)];
+    fly(&log, "hover-50ft", None, keys, 2500);
+    let cut = log.with_file_name("cut.mcap");
+    let bytes = std::fs::read(&log).expect("a log");
+    std::fs::write(&cut, &bytes[..bytes.len() * 3 / 4]).expect("a file");
+    verify(&cut).ends(INCOMPLETE);
+    let recovered = log.with_file_name("recovered.mcap");
+    tiltrotor(&["log", "recover", text(&cut), "--out", text(&recovered)]);
+    verify(&recovered).ends(INCOMPLETE).says("exact");
+    let mut reader = logs::open(&recovered, OpenOptions::default()).expect("a log");
+    while reader.next_tick().expect("a tick").is_some() {}
+    assert_eq!(events(&reader, Happening::Restarted), [(300, 1)]);
 }
 
 #[test]

@@ -49,8 +49,8 @@ pub struct FlightWriter {
     listener: Option<Listener>,
 }
 
-/// Hears what is told in words: tick, level, words.
-pub type Listener = Box<dyn FnMut(u64, Level, &str) + Send>;
+/// Hears what is told in words: tick, what happened, how grave it is, words.
+pub type Listener = Box<dyn FnMut(u64, Happening, Level, &str) + Send>;
 
 /// How a log ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,7 +205,7 @@ impl FlightWriter {
     ) -> Result<(), LogError> {
         let level = what.facts().levels.of(value);
         if let Some(listener) = &mut self.listener {
-            listener(tick, level, words);
+            listener(tick, what, level, words);
         }
         let record = EventRecord { tick, kind: what as u64, value, measured };
         // What is found out later is told later: log times never go back.

@@ -161,6 +161,16 @@ mod tests {
     }
 
     #[test]
+    fn another_limit_of_a_slip_is_kept() {
+        let wanted = RealTime { slip_limit_ns: 10 * SLIP_LIMIT_NS, ..RealTime::default() };
+        let mut pace = Pace::keeping(&wanted);
+        pace.start_ns -= 5 * SLIP_LIMIT_NS;
+        assert_eq!(pace.wait(0).slip_ns, 0);
+        pace.start_ns -= 6 * SLIP_LIMIT_NS;
+        assert!(pace.wait(0).slip_ns > 0);
+    }
+
+    #[test]
     fn time_in_which_the_process_stood_still_is_not_time_awake() {
         let awake = Awake::default();
         let mut now_ns = 7_000_000_000;

@@ -147,9 +147,9 @@ where
         }
         output.begun()?;
         let (say, said) = mpsc::channel();
-        writer.tell(Box::new(move |tick, level, words| {
+        writer.tell(Box::new(move |tick, what, level, words| {
             // Nobody may listen.
-            let _ = say.send(Told { tick, level, words: words.into() });
+            let _ = say.send(Told { tick, what, level, words: words.into() });
         }));
         progress.listen(said);
         let (tell, told) = mpsc::channel();

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use engine::Outputs;
 use engine::cockpit::{self, Waiting};
 use engine::inputs::{DeviceEvent, EventKind, World};
-use logs::records::TimingRecord;
+use logs::records::{Happening, TimingRecord};
 use logs::view::Level;
 
 use crate::debrief::Debrief;
@@ -18,6 +18,8 @@ use crate::platform::{ENDING, is_ignored};
 pub struct Told {
     /// When.
     pub tick: u64,
+    /// What happened.
+    pub what: Happening,
     /// How grave it is.
     pub level: Level,
     /// In words.

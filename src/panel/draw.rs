@@ -21,6 +21,8 @@ use super::cockpit::Cockpit;
 
 /// The smallest terminal in which all of it fits.
 const SIZE_MIN: (u16, u16) = (80, 24);
+/// How long a tick lasts.
+const TICK_MS: f64 = STEP_S * 1e3;
 /// Columns beside a control's bar: its name, what its ends are called, the frame.
 const AROUND_BAR: u16 = 19;
 
@@ -153,7 +155,13 @@ fn title(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         Span::raw(format!("{}  {phase} ", cockpit.log)),
         frozen,
     ]);
-    let second = Line::raw(format!(" {}", cockpit.verdict));
+    let ms = look.shown.late_ns as f64 * 1e-6;
+    let second = if ms > TICK_MS {
+        let words = format!(" LATE: ticks up to {ms:.1} ms late within the last second ");
+        Line::styled(words, look.warning())
+    } else {
+        Line::raw(format!(" {}", cockpit.verdict))
+    };
     frame.render_widget(Paragraph::new(vec![first, second]), area);
 }
 
@@ -310,7 +318,7 @@ fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 fn timing(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let (shown, now) = (look.shown, look.now);
     let ms = |ns: u64| ns as f64 * 1e-6;
-    let late = if ms(shown.late_ns) > 4.0 { look.warning() } else { Style::new() };
+    let late = if ms(shown.late_ns) > TICK_MS { look.warning() } else { Style::new() };
     let latency = match shown.latency_ns {
         0 => "no hardware moved".into(),
         ns => format!("input to picture {:.1} ms", ms(ns)),
@@ -490,7 +498,8 @@ mod tests {
         let now =
             Snapshot { tick: 1234, phase: 1, slips: 1, slipped_s: 0.5, ..Snapshot::default() };
         let words = "failed: left engine".into();
-        let told = VecDeque::from([Told { tick: 1200, level: Level::Warn, words }]);
+        let what = logs::records::Happening::Failures;
+        let told = VecDeque::from([Told { tick: 1200, what, level: Level::Warn, words }]);
         let look = Look { cockpit: &cockpit, page, shown, now: &now, told: &told, colours: false };
         let mut terminal = Terminal::new(TestBackend::new(size.0, size.1)).unwrap();
         terminal.draw(|frame| draw(frame, &look)).unwrap();

@@ -13,6 +13,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use crossterm::event::{Event, KeyEventKind, poll, read};
+use logs::records::Happening;
+use logs::view::Level;
 use recorder::keyboard::{KeyAction, Order, Orders};
 use recorder::{Progress, Restart, Situation, Told};
 
@@ -60,8 +62,8 @@ impl Panel {
         let mut saved = false;
         while flying() {
             for event in progress.told() {
-                saved |= event.words.starts_with("situation saved");
-                if event.level != logs::view::Level::Info {
+                saved |= event.what == Happening::SituationSaved && event.level == Level::Info;
+                if event.level != Level::Info {
                     grave.push(event.clone());
                 }
                 told.push_back(event);
@@ -111,7 +113,7 @@ impl Panel {
                 None => {}
             }
         }
-        grave.extend(progress.told().into_iter().filter(|t| t.level != logs::view::Level::Info));
+        grave.extend(progress.told().into_iter().filter(|told| told.level != Level::Info));
         Ok(grave)
     }
 
