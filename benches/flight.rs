@@ -106,7 +106,7 @@ fn hand_over_of_a_tick(bencher: Bencher) {
         FlightWriter::create(file, &setup(), &identity, &aircraft, "", &state).expect("a log");
     let told = std::sync::mpsc::channel().1;
     let saver = Saver::beside(&out, &aircraft.name);
-    let mut recording = Recording::start(writer, &aircraft, &state, told, saver);
+    let mut recording = Recording::start(writer, &aircraft, &state, told, saver, None);
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);

@@ -9,7 +9,7 @@ use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_RADPS};
 use engine::{Aircraft, GRAVITY_MPS2};
 
 use crate::numbers::between;
-use crate::{fly, numbers};
+use crate::{numbers, texts};
 
 /// Which steady flight.
 #[derive(Clone, clap::Args)]
@@ -121,7 +121,7 @@ impl Condition {
 
     /// The aircraft, as heavy as asked for, and the flight.
     pub fn read(&self) -> Result<(Aircraft, Target)> {
-        let (name, text) = fly::text_or(self.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;
+        let (name, text) = texts::text_or(self.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;
         let aircraft = aircraft::aircraft(&name, &text)?;
         let airspeed_mps = self.speed_kt * KNOT_MPS;
         let (aircraft, fuel_kg) = weigh(aircraft, self.weight_lb * POUND_KG)?;

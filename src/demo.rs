@@ -36,6 +36,7 @@ pub fn run(args: &Args) -> Result<Status> {
     } else {
         say!("It takes three and a half minutes; `--fast` flies it in seconds. Ctrl-C ends it.");
     }
+    let _linked = plan.connect()?;
     if let (Some(link), false) = (&plan.flight.link, args.common.fast) {
         let places: Vec<String> = link.destinations().map(|place| place.to_string()).collect();
         say!("Live in FlightGear at {}.", places.join(", "));

@@ -5,6 +5,7 @@ mod hardware;
 use std::fs;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::Duration;
@@ -12,19 +13,23 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 use engine::cockpit;
 use engine::{Aircraft, STEP_S};
+use flightgear::{Link, Receiver};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use logs::output;
+use recorder::flightgear_controls::FlightGearControls;
 use recorder::keyboard::{Keyboard, Orders};
 use recorder::pilots::{self, PILOTS, Pilot};
 use recorder::script::Script;
 use recorder::situation;
 use recorder::{End, Flight, Landing, Progress, RealTime, Restart, Snapshot, check_clock, fly};
 
-use crate::claim::Claim;
-use crate::link_args::LinkArgs;
+use crate::flightgear::Scene;
+use crate::ground::{self, Whose};
+use crate::link_args::{LinkArgs, Linked};
 use crate::panel::{Cockpit, Panel};
 use crate::status::Status;
+use crate::texts::{name_of, read, text_or};
 use crate::{condition, controls, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
@@ -45,6 +50,9 @@ pub struct Args {
     /// Say what moves the aircraft in such a flight, and fly nothing
     #[arg(long)]
     controls: bool,
+    /// Fly with FlightGear's own stick, keyboard and mouse
+    #[arg(long)]
+    flightgear_controls: bool,
     /// Cockpit map for --stick: a file, or the name of a shipped one (without: of the shipped ones
     /// those for what is plugged in)
     #[arg(long, value_name = "FILE", requires = "stick")]
@@ -63,6 +71,10 @@ pub struct Args {
     #[arg(long, value_name = "MS", default_value_t = 100.0)]
     #[arg(value_parser = numbers::between(5.0, 10_000.0, "ms"), allow_negative_numbers = true)]
     slip_limit: f64,
+    /// Sleep until this long before a tick is due, and spin for the rest, µs
+    #[arg(long, value_name = "US", default_value_t = 200.0)]
+    #[arg(value_parser = numbers::between(0.0, 4000.0, "µs"), allow_negative_numbers = true)]
+    spin_us: f64,
     /// Keep the loop on this processor, counted from 0
     #[arg(long, value_name = "N")]
     cpu: Option<usize>,
@@ -130,6 +142,9 @@ pub struct Common {
     pub force: bool,
     #[command(flatten)]
     pub link: LinkArgs,
+    /// Whose ground the wheels stand on
+    #[arg(long, value_enum, default_value_t)]
+    ground: ground::Whose,
 }
 
 impl Common {
@@ -165,9 +180,9 @@ pub fn run(args: &Args) -> Result<Status> {
         plan.begin_in(&args.air)?;
     }
     let virtual_hands = args.pilot.is_some() || args.script.is_some();
-    if !args.stick && !args.keyboard && !virtual_hands {
+    if !args.stick && !args.keyboard && !virtual_hands && !args.flightgear_controls {
         bail!(
-            "nobody flies: give --stick, --keyboard, --pilot NAME ({}) or --script FILE",
+            "nobody flies: give --stick, --keyboard, --flightgear-controls, --pilot NAME ({}) or --script FILE",
             pilot_names()
         );
     }
@@ -189,6 +204,9 @@ pub fn run(args: &Args) -> Result<Status> {
         let text = read(path)?;
         plan.flight.hands.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
     }
+    if args.flightgear_controls {
+        plan.add_flightgear(&mut map)?;
+    }
     if args.keyboard {
         plan.add_keyboard(&mut map)?;
     }
@@ -200,6 +218,7 @@ pub fn run(args: &Args) -> Result<Status> {
     }
     let real_time = plan.flight.real_time.is_some();
     plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
+    let _linked = plan.connect()?;
     let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
     args.common.hold(&mut landing)?;
@@ -226,7 +245,9 @@ pub struct Plan {
     /// Whether there is a panel, or a line of progress.
     panel: bool,
     /// Where its pictures go.
-    _claims: Vec<Claim>,
+    pub linked: Option<Linked>,
+    /// Whose ground.
+    ground: Whose,
 }
 
 impl Plan {
@@ -251,7 +272,19 @@ impl Plan {
             );
         }
         let robot_description = aircraft::urdf(&aircraft);
-        let (link, claims) = common.link.open(common.fast)?.unzip();
+        let wants_ground = match common.ground {
+            Whose::Auto => !common.fast,
+            whose => whose == Whose::Flightgear,
+        };
+        // Its controls are wanted, or may be: the port is free while no flight is under way.
+        let heard = !common.fast || wants_ground;
+        let scene = || Ok(Scene { start: Some(start.clone()), moment: None });
+        let linked = common.link.open(common.fast, heard, scene)?;
+        if linked.is_none() && common.ground == Whose::Flightgear {
+            bail!(
+                "--ground flightgear: nothing is sent to FlightGear; give --flightgear HOST:PORT"
+            );
+        }
         let inputs: Vec<&Path> =
             [&common.aircraft, &common.scenario].into_iter().filter_map(|f| f.as_deref()).collect();
         output::refuse(&common.out, common.force, &inputs)?;
@@ -263,7 +296,8 @@ impl Plan {
             crew: hardware::Named::default(),
             orders: None,
             panel: false,
-            _claims: claims.unwrap_or_default(),
+            linked,
+            ground: if wants_ground { common.ground } else { Whose::Flat },
             flight: Flight {
                 aircraft,
                 start,
@@ -278,10 +312,55 @@ impl Plan {
                 real_time: (!common.fast).then(RealTime::default),
                 situation: None,
                 ticks_max: None,
-                link,
+                link: None,
                 self_check: false,
             },
         })
+    }
+
+    /// Gives the flight its way to FlightGear, and what comes back from there; what is returned is to be
+    /// kept until all is over.
+    pub fn connect(&mut self) -> Result<Option<Linked>> {
+        let Some(mut linked) = self.linked.take() else { return Ok(None) };
+        let wanted = self.ground != Whose::Flat && self.flight.situation.is_none();
+        let receiver = linked.receiver.clone().filter(|_| wanted);
+        let link = std::mem::take(&mut linked.link);
+        self.flight.link = Some(match receiver {
+            Some(receiver) => self.settle(link, &receiver)?,
+            None => link,
+        });
+        Ok(Some(linked))
+    }
+
+    /// FlightGear's ground under the wheels, where it is to be and is: the flight begins on it.
+    fn settle(&mut self, link: Link, receiver: &Arc<Receiver>) -> Result<Link> {
+        let Flight { aircraft, start, .. } = &self.flight;
+        let (link, ground_m) = ground::found(self.ground, aircraft, start, link, receiver)?;
+        let Some(ground_m) = ground_m else { return Ok(link) };
+        if start.trim.is_none() {
+            let scenario = ground::scenario_at(&self.flight.setup.scenario_toml, ground_m)?;
+            self.flight.start = aircraft::start("scenario.toml", &scenario)?;
+            self.flight.setup.scenario_toml = scenario;
+        }
+        complain!("ground: FlightGear's, {ground_m:.2} m above sea level where the flight begins");
+        let hand = ground::hand(receiver, &self.flight.start, &self.flight.aircraft);
+        self.flight.hands.insert(0, Box::new(hand));
+        Ok(link)
+    }
+
+    /// Lets FlightGear's own controls fly.
+    fn add_flightgear(&mut self, map: &mut cockpit::Params) -> Result<()> {
+        let receiver = self.linked.as_ref().and_then(|linked| linked.receiver.clone());
+        let Some(receiver) = receiver else {
+            bail!(
+                "--flightgear-controls: FlightGear is not listened to; give --flightgear HOST:PORT"
+            )
+        };
+        let ours = aircraft::cockpit("flightgear.toml", aircraft::FLIGHTGEAR_MAP)?;
+        map.device.extend(ours.device);
+        let hand = FlightGearControls::new(receiver, map);
+        self.flight.hands.extend(hand.map(|hand| Box::new(hand) as Box<dyn recorder::Hands>));
+        Ok(())
     }
 
     /// Begins in steady flight: the scenario says so, and goes into the log with it.
@@ -320,6 +399,7 @@ impl Plan {
     fn keep_time(&mut self, args: &Args) {
         if let Some(real_time) = &mut self.flight.real_time {
             real_time.slip_limit_ns = (args.slip_limit * 1e6).round() as u64;
+            real_time.spin_ns = (args.spin_us * 1e3).round() as u64;
             real_time.cpu = args.cpu;
         }
     }
@@ -367,7 +447,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, crew, _claims, .. } = self;
+        let Self { flight, pipe: _pipe, phases, crew, .. } = self;
         let landing = thread::scope(|scope| {
             let flying = scope.spawn(|| fly(flight, &progress));
             let mut told = Snapshot::default();
@@ -397,7 +477,7 @@ impl Plan {
     fn fly_with_panel(self) -> Result<Landing> {
         let progress = Progress::default();
         progress.stop_on_signals()?;
-        let Self { flight, pipe: _pipe, phases, orders, crew, _claims, .. } = self;
+        let Self { flight, pipe: _pipe, phases, orders, crew, .. } = self;
         let verdict = flight
             .real_time
             .map_or_else(String::new, |wanted| check_clock(wanted, CLOCK_CHECK).verdict());
@@ -516,20 +596,4 @@ fn warnings(told: &Snapshot, now: &Snapshot) -> Vec<String> {
 fn pilot_names() -> String {
     let names: Vec<_> = PILOTS.iter().map(|(name, what)| format!("{name}: {what}")).collect();
     names.join("; ")
-}
-
-/// The text of a file, or the built-in one of that name.
-pub fn text_or(path: Option<&Path>, name: &str, built_in: &str) -> Result<(String, String)> {
-    match path {
-        Some(path) => Ok((name_of(path), read(path)?)),
-        None => Ok((name.to_string(), built_in.to_string())),
-    }
-}
-
-fn name_of(path: &Path) -> String {
-    path.display().to_string()
-}
-
-fn read(path: &Path) -> Result<String> {
-    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
 }

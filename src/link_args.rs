@@ -1,14 +1,17 @@
 //! Where the pictures go, and for how long: what `fly`, `demo` and `replay` have in common.
 
+use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::Result;
-use flightgear::{DEFAULT_DESTINATION, Hold, Link, Listener, Sent};
+use anyhow::{Result, bail};
+use flightgear::{DEFAULT_DESTINATION, Hold, Link, Listener, Receiver, Sent};
 use recorder::Progress;
 
 use crate::claim::Claim;
+use crate::flightgear::{HowArgs, Ports, Running, Scene};
 use crate::numbers;
 
 /// Where FlightGear is.
@@ -27,8 +30,26 @@ pub struct LinkArgs {
     #[arg(long, value_name = "SECONDS")]
     #[arg(value_parser = numbers::hold_s, allow_negative_numbers = true)]
     hold: Option<f64>,
+    /// Start a FlightGear with our aircraft before the flight, and end it after
+    #[arg(long)]
+    launch_flightgear: bool,
+    #[command(flatten)]
+    how: HowArgs,
 }
 
+/// The ways to and from FlightGear.
+pub struct Linked {
+    /// The pictures' way.
+    pub link: Link,
+    /// What FlightGear tells; `None` where it was not wanted, or the port is taken.
+    pub receiver: Option<Arc<Receiver>>,
+    /// The FlightGear that was started for this.
+    pub running: Option<Running>,
+    _claims: Vec<Claim>,
+}
+
+/// The first start of a slow machine, with all that FlightGear prepares then.
+const LAUNCH: Duration = Duration::from_secs(300);
 /// Longer than any stall that is to be survived, s.
 const HOLD_S: f64 = 7.0;
 
@@ -43,8 +64,15 @@ impl LinkArgs {
     }
 
     /// Opens the ways, warns of what will not work, and claims them for as long as the claims live.
-    pub fn open(&self, fast: bool) -> Result<Option<(Link, Vec<Claim>)>> {
-        let destinations = self.destinations(fast);
+    /// What FlightGear tells is wanted where it is `heard`. One that is to be started shows the scene
+    /// first, and is ready when this comes back.
+    pub fn open(
+        &self,
+        fast: bool,
+        heard: bool,
+        scene: impl FnOnce() -> Result<Scene>,
+    ) -> Result<Option<Linked>> {
+        let destinations = self.destinations(fast && !self.launch_flightgear);
         if destinations.is_empty() {
             return Ok(None);
         }
@@ -55,7 +83,14 @@ impl LinkArgs {
             );
         }
         let claims = destinations.iter().map(|destination| Claim::of(destination)).collect();
-        Ok(Some((link, claims)))
+        let mut linked = Linked { link, receiver: None, running: None, _claims: claims };
+        if heard || self.launch_flightgear {
+            linked.listen(self.launch_flightgear)?;
+        }
+        if self.launch_flightgear {
+            linked.launch(&self.how, &scene()?)?;
+        }
+        Ok(Some(linked))
     }
 
     /// Keeps the last picture up for as long as it is to be, or until a signal; says how many pictures
@@ -79,6 +114,52 @@ impl LinkArgs {
     #[must_use]
     pub fn or_forever(&self) -> Self {
         Self { hold: self.hold.or(Some(f64::INFINITY)), ..self.clone() }
+    }
+}
+
+impl Linked {
+    fn first(&self) -> Option<SocketAddr> {
+        self.link.destinations().next()
+    }
+
+    /// Listens to what the first FlightGear tells, two ports after its own.
+    fn listen(&mut self, needed: bool) -> Result<()> {
+        let Some(first) = self.first() else { return Ok(()) };
+        let Some(port) = first.port().checked_add(2) else { return Ok(()) };
+        match Receiver::open(first.ip(), port) {
+            Ok(receiver) => self.receiver = Some(Arc::new(receiver)),
+            Err(error) if needed => {
+                bail!("cannot listen to FlightGear at port {port}: {error}")
+            }
+            Err(error) => complain!(
+                "WARNING: cannot listen to FlightGear at port {port}: {error}; the ground stays flat"
+            ),
+        }
+        Ok(())
+    }
+
+    /// Starts a FlightGear where the first pictures go, and waits until it is ready.
+    fn launch(&mut self, how: &HowArgs, scene: &Scene) -> Result<()> {
+        let (Some(first), Some(receiver)) = (self.first(), &self.receiver) else { return Ok(()) };
+        let IpAddr::V4(listen) = first.ip() else {
+            bail!("{first} is IPv6, and FlightGear listens on IPv4 only")
+        };
+        if !listen.is_loopback() {
+            bail!("--launch-flightgear starts one on this machine, and {first} is another one");
+        }
+        let tell = (listen, receiver.port());
+        let request = how.request(scene, Ports { port: first.port(), listen, tell })?;
+        let mut running = Running::start(&request)?;
+        complain!(
+            "FlightGear starts; the first time it takes minutes. What it says: {}",
+            running.log()
+        );
+        let stop = Progress::default();
+        stop.stop_on_signals()?;
+        let took = running.ready(receiver, LAUNCH, &stop.stop)?;
+        complain!("FlightGear is ready after {:.0} s", took.as_secs_f64());
+        self.running = Some(running);
+        Ok(())
     }
 }
 

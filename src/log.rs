@@ -22,6 +22,7 @@ use replay::{Facts, Outcome, Window};
 
 use crate::made;
 use crate::status::Status;
+use crate::timing;
 use crate::window::WindowArgs;
 
 /// What to do with a log.
@@ -171,7 +172,11 @@ fn say_who_and_what(reader: &FlightReader) {
 /// What was read beside the ticks: other metadata, fields of another layout, devices, events.
 fn say_beside_the_flight(reader: &FlightReader) {
     for (name, facts) in &reader.other_facts {
-        say_facts(&format!("{name}."), facts);
+        if timing::is_timing(name) {
+            timing::say(facts);
+        } else {
+            say_facts(&format!("{name}."), facts);
+        }
     }
     for (topic, difference) in reader.differences() {
         let Difference { missing, ignored } = difference;
@@ -222,6 +227,8 @@ fn summary(log: &Path, window: &WindowArgs) -> Result<Status> {
     let window = window.of(log)?;
     let summary = replay::summary(log, &window).with_context(|| log.display().to_string())?;
     say!("{}: {summary}", log.display());
+    let kept_time = summary.facts.iter().filter(|(name, _)| timing::is_timing(name));
+    kept_time.for_each(|(_, facts)| timing::say(facts));
     Ok(Status::from(&summary.judgement))
 }
 
@@ -244,6 +251,9 @@ fn recover(broken: &Path, out: &Path, force: bool) -> Result<Status> {
     }
     if done.messages_foreign > 0 {
         say!("           {} messages on channels of others", done.messages_foreign);
+    }
+    if done.files_foreign > 0 {
+        say!("           {} files and metadata records of others", done.files_foreign);
     }
     if done.messages_unproven > 0 {
         say!(

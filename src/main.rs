@@ -9,7 +9,10 @@ mod controls;
 mod demo;
 mod devices;
 mod diff;
+mod doctor;
+mod flightgear;
 mod fly;
+mod ground;
 mod identity;
 mod json;
 mod linearize;
@@ -23,6 +26,8 @@ mod panel;
 mod replay_live;
 mod report;
 mod status;
+mod texts;
+mod timing;
 mod trim;
 mod verify;
 mod view;
@@ -69,6 +74,10 @@ enum Command {
     /// Small motions about a steady flight: modes, frequency responses, state-space matrices. Exit 0
     /// solved, 5 no steady flight, or not converged.
     Linearize(linearize::Args),
+    /// What this machine can hold in real time, and what to change.
+    Doctor(doctor::Args),
+    /// Start FlightGear with our aircraft, and wait until it is ready.
+    Flightgear(flightgear::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
 }
@@ -117,6 +126,8 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Log(command) => log::run(&command),
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),
+        Command::Doctor(args) => doctor::run(&args),
+        Command::Flightgear(args) => flightgear::run(&args),
         Command::Demo(args) => demo::run(&args),
     }
 }

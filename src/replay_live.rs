@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use engine::{Aircraft, STEP_S};
-use flightgear::{Lamps, Link, Picture, Scene};
+use flightgear::{Lamps, Link, Picture};
 use recorder::Pace;
 use replay::judgement::disorder;
 use replay::playback::{Frame, Moment};
 use replay::{Facts, Playback, Reflown, ReflyOptions, ReplayError, Window};
 
+use crate::flightgear::Scene;
 use crate::link_args::{self, LinkArgs};
 use crate::numbers::between;
 use crate::report;
@@ -53,7 +54,10 @@ pub fn run(args: &Args) -> Result<Status> {
     let playback = Playback::open(&args.log, &options, args.speed)
         .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
     let start = playback.flight.state.tick;
-    let (link, _claims) = args.link.open(false)?.unzip();
+    let log = args.log.clone();
+    // Kept to the end: with it ends a FlightGear that was started for this.
+    let mut linked = args.link.open(false, false, || Scene::of_log(&log))?;
+    let link = linked.as_mut().map(|linked| std::mem::take(&mut linked.link));
     let mut showing = Showing {
         facts: Facts::of_reflight(&playback.flight),
         playback,
@@ -156,7 +160,7 @@ fn picture(aircraft: &Aircraft, frame: &Frame<'_>, paused: bool) -> Picture {
     let lamps = Lamps { replay: true, paused, ..Lamps::default() };
     let of = |moment: &Moment| {
         let Moment { outputs, world } = moment;
-        Picture::of(&Scene { aircraft, outputs, world, lamps })
+        Picture::of(&flightgear::Scene { aircraft, outputs, world, lamps })
     };
     if frame.part < 1.0 {
         Picture::between(&of(frame.before), &of(frame.after), frame.part)

@@ -27,8 +27,9 @@ pub enum Status {
 use Status::{Compared, CutShort, Differs, Done, NeverClosed, NotConverged, Unusable};
 
 /// The statuses with which each verb ends.
-const VERBS: [(&str, &[Status]); 20] = [
+const VERBS: &[(&str, &[Status])] = &[
     ("fly", &[Done, Unusable, CutShort]),
+    ("flightgear", &[Done, Unusable]),
     ("devices", &[Done, Unusable]),
     ("demo", &[Done, Differs, Unusable, NeverClosed, CutShort]),
     ("replay", &[Done, Differs, Unusable, NeverClosed, Compared]),
@@ -47,6 +48,7 @@ const VERBS: [(&str, &[Status]); 20] = [
     ("log expand", &[Done, Unusable, NeverClosed]),
     ("log recover", &[Differs, Unusable, NeverClosed]),
     ("trim", &[Done, Unusable, NotConverged]),
+    ("doctor", &[Done, Unusable]),
     ("linearize", &[Done, Unusable, NotConverged]),
 ];
 

@@ -28,7 +28,7 @@ pub struct Args {
     /// The logs; a folder stands for every *.mcap in it and below
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// Logs at a time [default: one a processor]
+    /// Threads, for one log or several at a time [default: one a processor]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZero<usize>>,
     /// Only every N-th log of the sorted list, from the I-th on: 1/N to N/N together are all
@@ -65,9 +65,9 @@ struct How {
 }
 
 impl How {
-    fn options(&self, log: &Path) -> Result<Options> {
+    fn options(&self, log: &Path, threads: usize) -> Result<Options> {
         let (window, across_versions) = (self.window.of(log)?, self.across_versions);
-        Ok(Options { window, across_versions, ..Options::default() })
+        Ok(Options { window, across_versions, threads, ..Options::default() })
     }
 }
 
@@ -91,9 +91,10 @@ struct Verified {
 }
 
 impl Verified {
-    fn new(log: &Path, how: Option<&How>, progress: impl FnMut(u64)) -> Self {
+    fn new(log: &Path, how: Option<&How>, threads: usize, progress: impl FnMut(u64)) -> Self {
         let started = Instant::now();
-        let options = how.map_or_else(|| Ok(Options::default()), |how| how.options(log));
+        let whole = Options { threads, ..Options::default() };
+        let options = how.map_or(Ok(whole), |how| how.options(log, threads));
         let verdict = options.map_err(|error| format!("{error:#}")).and_then(|options| {
             verify(log, &options, progress).map_err(|error| report::refusal(&error))
         });
@@ -184,6 +185,8 @@ pub fn run(args: &Args) -> Result<Status> {
         None => whole,
     };
     let jobs = args.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    // Of few logs, each is flown by several threads.
+    let threads = (jobs / logs.len().max(1)).max(1);
     let jobs = jobs.min(logs.len()).max(1);
     if args.how.bless || args.how.moved {
         return bless::run(&logs, args.how.aircraft.as_deref(), args.how.bless);
@@ -194,7 +197,7 @@ pub fn run(args: &Args) -> Result<Status> {
         );
     }
     let started = Instant::now();
-    let verified = verify_all(&logs, jobs, Some(&args.how), args.format == Format::Text);
+    let verified = verify_all(&logs, (jobs, threads), Some(&args.how), args.format == Format::Text);
     let run = Run { logs: verified, jobs, shard: args.shard, took: started.elapsed() };
     match args.format {
         Format::Text if several || run.logs.is_empty() => run.say_sum(),
@@ -210,12 +213,20 @@ pub fn run(args: &Args) -> Result<Status> {
 
 /// Verifies a log, prints the verdict, and returns the exit status.
 pub fn verify_one(log: &Path) -> Status {
-    Status::gravest(verify_all(&[log.into()], 1, None, true).iter().map(Verified::status))
+    let threads = Options::default().threads;
+    Status::gravest(
+        verify_all(&[log.into()], (1, threads), None, true).iter().map(Verified::status),
+    )
 }
 
-/// Verifies them on so many threads; each is told, in the order of the list, as soon as it and all
+/// Verifies so many at a time, each on so many threads; each is told, in the order of the list, as soon as it and all
 /// before it are done.
-fn verify_all(logs: &[PathBuf], jobs: usize, how: Option<&How>, tell: bool) -> Vec<Verified> {
+fn verify_all(
+    logs: &[PathBuf],
+    (jobs, threads): (usize, usize),
+    how: Option<&How>,
+    tell: bool,
+) -> Vec<Verified> {
     // Draws itself on a terminal only.
     let bar = ProgressBar::new(logs.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{spinner} {pos} of {len} logs, {msg}") {
@@ -226,9 +237,12 @@ fn verify_all(logs: &[PathBuf], jobs: usize, how: Option<&How>, tell: bool) -> V
     let done = Mutex::new(Done { logs: logs.iter().map(|_| None).collect(), told: 0 });
     let work = || {
         while let Some(log) = logs.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let verified = Verified::new(log, how, |flown| {
-                if flown.is_multiple_of(TICKS_PER_WORD) {
-                    let all = ticks.fetch_add(TICKS_PER_WORD, Ordering::Relaxed) + TICKS_PER_WORD;
+            let mut told = 0;
+            let verified = Verified::new(log, how, threads, |flown| {
+                let more = flown.saturating_sub(told);
+                if more >= TICKS_PER_WORD {
+                    told = flown;
+                    let all = ticks.fetch_add(more, Ordering::Relaxed) + more;
                     bar.set_message(format!("{:.0} s reflown", all as f64 * STEP_S));
                     bar.tick();
                 }

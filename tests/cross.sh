@@ -5,7 +5,7 @@
 #   tests/cross.sh check     compiles for both, runs nothing
 #   tests/cross.sh           builds the Windows binary and runs it, too
 #
-# What it needs, `./setup --cross` installs. macOS: only the Rust code is checked, because its C headers are
+# What it needs, `./setup --cross` installs; ends with 77 where it is not there. macOS: only the Rust code is checked, because its C headers are
 # Apple's; nobody has run the program there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -15,11 +15,11 @@ macos=aarch64-apple-darwin
 for target in $windows $macos; do
     if ! rustup target list --installed 2>/dev/null | grep --quiet --line-regexp "$target"; then
         echo "SKIPPED: no Rust target $target here: ./setup --cross adds it"
-        exit 0
+        exit 77
     fi
 done
 command -v x86_64-w64-mingw32-gcc >/dev/null ||
-    { echo "SKIPPED: no mingw here: ./setup --cross installs it"; exit 0; }
+    { echo "SKIPPED: no mingw here: ./setup --cross installs it"; exit 77; }
 
 echo "cargo check for $macos (Rust only) and $windows"
 export CC_aarch64_apple_darwin=$PWD/tests/cross/no_c_compiler
@@ -29,7 +29,7 @@ cargo check --workspace --no-default-features --target $windows
 [ "${1-}" = check ] && exit 0
 
 wine=$(command -v wine64 || command -v wine) ||
-    { echo "SKIPPED: no Wine here: ./setup --cross installs it"; exit 0; }
+    { echo "SKIPPED: no Wine here: ./setup --cross installs it"; exit 77; }
 cargo build --release --no-default-features --target $windows
 release=target/$windows/release
 # Older Wines lack it; Windows has its own.

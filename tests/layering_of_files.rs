@@ -21,7 +21,6 @@ const KNOWN_CIRCLES: &[(&str, &[&str])] = &[
         "replay",
         &["view", "view::canvas", "view::layout", "view::plots", "view::scene", "view::track"],
     ),
-    ("tiltrotor", &["condition", "fly"]),
     ("tiltrotor", &["verify", "verify::forms", "verify::recordings"]),
 ];
 

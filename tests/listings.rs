@@ -1,4 +1,4 @@
-//! docs/events.md lists what the program lists: each table of it is generated from the facts.
+//! docs/events.md and docs/panel.md list what the program lists: each table is generated from the facts.
 //!
 //! `BLESS=1` writes the tables instead of comparing them.
 
@@ -9,8 +9,9 @@ use std::path::PathBuf;
 use engine::cockpit::{AxisControl, ButtonControl};
 use engine::inputs::{EventKind, Failures};
 use engine::outputs::{Severity, Validity};
-use logs::records::{Happening, Levels};
+use logs::records::{Happening, Levels, RestartCause};
 use logs::view::Level;
+use recorder::keyboard::KeyAction;
 
 /// A table: its mark in the page, its head, and its rows.
 type Listing = (&'static str, &'static [&'static str], Vec<Vec<String>>);
@@ -72,6 +73,10 @@ fn listings() -> Vec<Listing> {
         let facts = control.facts();
         row(&[&code(facts.key), &facts.description])
     });
+    let restarts = RestartCause::ALL.iter().map(|&cause| {
+        let facts = cause.facts();
+        row(&[&(cause as u64), &code(facts.key), &facts.words, &facts.description])
+    });
     vec![
         ("events", &["kind", "key", "what happened", "value", "level"], events.collect()),
         ("validity", &["bit", "key", "in words", "when", "severity"], validity.collect()),
@@ -79,6 +84,7 @@ fn listings() -> Vec<Listing> {
         ("device events", &["kind", "key", "what happened"], kinds.collect()),
         ("axes", &["key", "what it is", "range"], axes.collect()),
         ("buttons", &["key", "what it does"], buttons.collect()),
+        ("restarts", &["cause", "key", "in words", "the state is"], restarts.collect()),
     ]
 }
 
@@ -94,24 +100,51 @@ fn markdown(head: &[&str], rows: &[Vec<String>]) -> String {
 /// The page with the text between a mark and its end replaced.
 fn replaced(page: &str, mark: &str, table: &str) -> String {
     let mark = format!("<!-- {mark} -->\n");
-    let start = page.find(&mark).unwrap_or_else(|| panic!("docs/events.md lacks {mark}"));
+    let start = page.find(&mark).unwrap_or_else(|| panic!("the page lacks {mark}"));
     let start = start + mark.len();
     let end = start + page[start..].find("<!-- end -->").expect("an end to every table");
     format!("{}{table}{}", &page[..start], &page[end..])
 }
 
+/// The keys of a flight by keyboard.
+fn keys() -> Vec<Listing> {
+    let keys = KeyAction::ALL.iter().map(|action| {
+        let facts = action.facts();
+        row(&[&code(facts.on), &facts.description])
+    });
+    let failures = (1..).zip(Failures::FACTS).map(|(number, facts)| {
+        row(&[&code(&format!("{number}")), &format!("Fails, or mends: {}.", facts.words)])
+    });
+    let starts = (5..)
+        .zip(aircraft::STARTS)
+        .map(|(number, (name, what, _))| row(&[&code(&format!("F{number}")), &code(name), &what]));
+    vec![
+        ("keys", &["key", "what it does"], keys.chain(failures).collect()),
+        ("starts", &["key", "`--start`", "where"], starts.collect()),
+    ]
+}
+
 #[test]
 fn the_page_of_events_lists_what_the_program_lists() {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/events.md");
-    let page = fs::read_to_string(&path).expect("docs/events.md");
+    lists("docs/events.md", listings());
+}
+
+#[test]
+fn the_page_of_the_panel_lists_the_keys() {
+    lists("docs/panel.md", keys());
+}
+
+fn lists(name: &str, listings: Vec<Listing>) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name);
+    let page = fs::read_to_string(&path).expect(name);
     let mut fresh = page.clone();
-    for (mark, head, rows) in listings() {
+    for (mark, head, rows) in listings {
         assert!(rows.iter().all(|row| row.len() == head.len()), "{mark}");
         fresh = replaced(&fresh, mark, &markdown(head, &rows));
     }
     if std::env::var_os("BLESS").is_some() {
-        fs::write(&path, fresh).expect("docs/events.md");
+        fs::write(&path, fresh).expect(name);
     } else {
-        assert!(fresh == page, "docs/events.md is not what the program lists; write it: BLESS=1");
+        assert!(fresh == page, "{name} is not what the program lists; write it: BLESS=1");
     }
 }

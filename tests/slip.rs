@@ -141,6 +141,15 @@ fn a_flight_that_was_stopped_goes_on_from_where_it_was_and_says_so() {
     assert_eq!(count(&reader, Happening::Slip), slips_ns.iter().filter(|&&ns| ns > 0).count());
     let told = reader.happenings.iter().filter(|event| event.kind == Happening::Slip as u64);
     assert_eq!(told.map(|event| event.value).max(), Some(longest_ns / 1_000_000));
+
+    // A part is of the flight as it was flown; what would have been was flown by no clock.
+    let (part, otherwise) = (log.with_file_name("part.mcap"), log.with_file_name("whatif.mcap"));
+    let whole = ["--from", "0", "--until", "4", "--out", text(&part)];
+    tiltrotor(&[&["log", "clip", text(&log)], &whole[..]].concat()).ends(OK);
+    assert_eq!(count(&read(&part), Happening::Slip), count(&reader, Happening::Slip));
+    let changed = ["--fail", "scas_yaw", "--out", text(&otherwise)];
+    tiltrotor(&[&["whatif", text(&log)], &changed[..]].concat()).ends(OK);
+    assert_eq!(count(&read(&otherwise), Happening::Slip), 0);
 }
 
 #[test]

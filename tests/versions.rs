@@ -8,10 +8,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use common::{DIVERGED, Forgery, INCOMPLETE, OK, UNUSABLE, folder, text, tiltrotor, verify};
+use common::{
+    DIVERGED, Forgery, INCOMPLETE, OK, UNUSABLE, chain_anew, folder, text, tiltrotor, verify,
+};
 use logs::cdr::HEADER;
 use logs::layout::Layout;
-use logs::records::{Chain, HARDWARE, INPUTS, STATE, TIMING, first_digest};
+use logs::records::{HARDWARE, INPUTS, STATE, TIMING};
 
 /// Flown for comparison.
 const COMPARED: i32 = 6;
@@ -242,6 +244,49 @@ fn a_log_without_what_makes_a_flight_is_refused() {
     verify(&log).ends(UNUSABLE).says("/hardware has no `code`");
 }
 
+#[test]
+fn a_compacted_log_of_another_layout_is_refused_by_its_format_in_every_verb() {
+    let log = short_flight("versions-compacted", |_| ());
+    let compact = log.with_file_name("compact.mcap");
+    tiltrotor(&["log", "compact", text(&log), "--out", text(&compact)]).ends(OK);
+    let mut forged = Forgery::of(&compact);
+    // Its definitions are in its first message, texts as they are.
+    let (was, is) = (b"float64 fuel_kg\n", b"float64 fuel_lb\n");
+    let first = forged.bytes("/compact", 0);
+    let at = first.windows(was.len()).position(|bytes| bytes == was).expect("a definition");
+    first[at..at + was.len()].copy_from_slice(is);
+    forged.write(&compact);
+    let (compact, out) = (text(&compact), text(&log.with_file_name("new.mcap")).to_owned());
+    let tables = format!("{out}-tables");
+    for verb in [
+        vec!["verify"],
+        vec!["replay"],
+        vec!["log", "info"],
+        vec!["log", "summary"],
+        vec!["log", "cat"],
+        vec!["log", "find"],
+        vec!["log", "files"],
+        vec!["log", "export", "--csv", &tables],
+        vec!["log", "clip", "--until", "20t", "--out", &out],
+        vec!["log", "expand", "--out", &out],
+        vec!["log", "recover", "--out", &out],
+        vec!["whatif", "--fail", "scas_yaw", "--out", &out],
+        vec!["diff", compact],
+    ] {
+        tiltrotor(&[&verb[..], &[compact]].concat())
+            .ends(UNUSABLE)
+            .says("its /state has not the fields of today")
+            .says("the log is of format 1, written by tiltrotor");
+    }
+    // What is not compacted yet cannot be.
+    let log = short_flight("versions-not-compacted", |log| {
+        reshape(log, STATE, |definition| definition.replace("float64 fuel_kg\n", ""));
+    });
+    tiltrotor(&["log", "compact", text(&log)])
+        .refused()
+        .says("its /state has not the fields of today");
+}
+
 /// The corpus's flight by this program, with something changed and the digests formed anew. Without
 /// seals, as the first log format was.
 fn short_flight(name: &str, change: impl FnOnce(&mut Forgery)) -> PathBuf {
@@ -293,36 +338,4 @@ fn reshape(log: &mut Forgery, topic: &str, edit: impl Fn(&str) -> String) {
     }
     assert!(changed, "the definition of {topic} is as before");
     chain_anew(log);
-}
-
-/// Forms the digests anew, up to the writer's last word.
-fn chain_anew(log: &mut Forgery) {
-    let mut chain = None;
-    let files: Vec<_> = log
-        .attachments
-        .iter()
-        .map(|file| (file.name.clone(), String::from_utf8(file.data.to_vec()).expect("text")))
-        .collect();
-    let files: Vec<_> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
-    for message in &mut log.messages {
-        match (message.channel.topic.as_str(), &mut chain) {
-            (STATE, chain) => {
-                let state = [&HEADER[..], &message.data[HEADER.len() + 8..]].concat();
-                let digest = match chain {
-                    None => {
-                        let digest = first_digest(&files, &state);
-                        *chain = Some(Chain::from(digest));
-                        digest
-                    }
-                    Some(chain) => chain.close(&state),
-                };
-                message.data.to_mut()[HEADER.len()..][..8].copy_from_slice(&digest.to_le_bytes());
-            }
-            (HARDWARE | INPUTS, Some(chain)) => chain.add(&message.data),
-            _ => {}
-        }
-    }
-    let digest = chain.expect("a state").digest().to_string();
-    let closing = log.metadata.iter_mut().find(|record| record.name == "tiltrotor_closing");
-    closing.expect("a last word").metadata.insert("digest".into(), digest);
 }

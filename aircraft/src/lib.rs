@@ -58,6 +58,9 @@ pub const KEYBOARD_MAP: &str = include_str!("../cockpit/keyboard.toml");
 /// Cockpit map of a common USB stick, to be read by [`cockpit`](cockpit()).
 pub const STICK_MAP: &str = include_str!("../cockpit/stick.toml");
 
+/// Cockpit map of FlightGear's own stick, keyboard and mouse, to be read by [`cockpit`](cockpit()).
+pub const FLIGHTGEAR_MAP: &str = include_str!("../cockpit/flightgear.toml");
+
 /// Where a flight begins unless told otherwise, to be read by [`start`].
 pub const DEFAULT_SCENARIO: &str = include_str!("../scenario/default.toml");
 

@@ -58,7 +58,7 @@ impl Kind {
     }
 
     /// Writes a number as this kind; 0 for what is not finite, the nearest end for what does not fit.
-    fn write(self, value: f64, bytes: &mut [u8]) {
+    pub(crate) fn write(self, value: f64, bytes: &mut [u8]) {
         // No display shows a −0.
         let value = if value.is_finite() { value + 0.0 } else { 0.0 };
         match self {
@@ -73,7 +73,7 @@ impl Kind {
     }
 
     /// Reads a number of this kind from as many bytes as it has.
-    fn read(self, bytes: &[u8]) -> f64 {
+    pub(crate) fn read(self, bytes: &[u8]) -> f64 {
         let narrow = || bytes.try_into().map_or([0; 4], |four: [u8; 4]| four);
         match self {
             Self::Int => f64::from(i32::from_be_bytes(narrow())),

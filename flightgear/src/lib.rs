@@ -21,7 +21,10 @@ mod display;
 mod hold;
 pub mod link;
 pub mod net_fdm;
+pub mod package;
 mod picture;
+mod receiver;
+pub mod report;
 mod scene;
 
 pub use channel::{Channel, ChannelError};
@@ -29,4 +32,6 @@ pub use hold::Hold;
 pub use link::{DEFAULT_DESTINATION, Link, LinkError, Listener, Sent};
 pub use net_fdm::{NetFdm, PacketError};
 pub use picture::Picture;
+pub use receiver::Receiver;
+pub use report::{GroundSample, Report, ReportError};
 pub use scene::{Lamps, Recording, Scene};

@@ -78,7 +78,7 @@ pub struct Sent {
 }
 
 /// The ways to one FlightGear or several.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Link {
     ways: Vec<Way>,
 }
@@ -114,6 +114,7 @@ impl Link {
 
     /// Whether it is known that nobody listens anywhere.
     pub fn nobody_listens(&self) -> bool {
+        // Nor does anybody where nothing is sent.
         self.ways.iter().all(|way| way.listener() == Listener::Nobody)
     }
 

@@ -14,7 +14,7 @@ use crate::open::OpenOptions;
 use crate::output::Output;
 use crate::reader::{Ending, FlightReader, Message, Messages, open};
 use crate::records::{STATE, time_ns};
-use crate::setup::{Identity, Setup};
+use crate::setup::{CLOSING, Identity, Setup, opens_a_flight};
 use crate::writer::FlightWriter;
 use crate::{LogError, cdr};
 
@@ -31,6 +31,8 @@ pub struct Recovery {
     pub ticks_distrusted: u64,
     /// Messages on channels that this program does not write, or of another definition: not copied.
     pub messages_foreign: u64,
+    /// Files and metadata of other programs: not copied.
+    pub files_foreign: u64,
     /// Messages for viewers and tables that the kept ticks do not prove: not copied.
     pub messages_unproven: u64,
     /// Size of the broken file.
@@ -165,6 +167,12 @@ fn copy(
             copied = Some(writer.last_tick());
         }
     }
+    // What stands after it is looked at for what is left behind.
+    while messages.next_message().is_some() {}
+    let files = messages.files().iter().filter(|(name, _)| !Setup::NAMES.contains(&&**name));
+    let known = |name: &str| opens_a_flight(name) || name == CLOSING;
+    let facts = messages.facts().iter().filter(|(name, _)| !known(name));
+    recovery.files_foreign = (files.count() + facts.count()) as u64;
     let changed = || LogError::Order("the file changed while it was being read".into());
     (copied == Some(recovery.tick)).then_some(()).ok_or_else(changed)
 }
@@ -193,7 +201,7 @@ impl Witness {
     fn confirms(&mut self, message: &Message) -> Result<bool, LogError> {
         let Some(channel) = message.channel().filter(|_| self.together) else { return Ok(true) };
         match channel.compacted {
-            Compacted::Rows => self.flier.takes(channel.id, &message.data)?,
+            Compacted::Rows | Compacted::Kept => self.flier.takes(channel.id, &message.data)?,
             Compacted::Reflown => self.state(message)?,
             Compacted::Remade => {
                 self.again.clear();
@@ -206,7 +214,6 @@ impl Witness {
                 }
                 return Ok(next && same);
             }
-            Compacted::Kept => {}
         }
         Ok(true)
     }

@@ -25,13 +25,15 @@ pub const SLIP_LIMIT_NS: u64 = 100_000_000;
 pub struct RealTime {
     /// Later than this, and the clock is anchored anew, ns.
     pub slip_limit_ns: u64,
+    /// The loop sleeps until this long before a tick is due, and spins for the rest, ns.
+    pub spin_ns: u64,
     /// The processor on which the loop stays; wherever the system puts it without.
     pub cpu: Option<usize>,
 }
 
 impl Default for RealTime {
     fn default() -> Self {
-        Self { slip_limit_ns: SLIP_LIMIT_NS, cpu: None }
+        Self { slip_limit_ns: SLIP_LIMIT_NS, spin_ns: SPIN_NS, cpu: None }
     }
 }
 
@@ -41,6 +43,7 @@ pub struct Pace {
     start_ns: u64,
     step_ns: u64,
     slip_limit_ns: u64,
+    spin_ns: u64,
 }
 
 /// How waiting for a tick ended.
@@ -55,12 +58,13 @@ pub struct Woken {
 impl Pace {
     /// Real time; tick 0 is due now.
     pub fn starting_now() -> Self {
-        Self::with_slip_limit(SLIP_LIMIT_NS)
+        Self::keeping(&RealTime::default())
     }
 
-    /// The same with another limit of a slip.
-    pub fn with_slip_limit(slip_limit_ns: u64) -> Self {
-        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns }
+    /// The same as punctually as is wanted.
+    pub fn keeping(wanted: &RealTime) -> Self {
+        let RealTime { slip_limit_ns, spin_ns, .. } = *wanted;
+        Self { start_ns: now_ns(), step_ns: STEP_NS, slip_limit_ns, spin_ns }
     }
 
     /// So many times faster than real time; tick 0 is due now.
@@ -77,7 +81,7 @@ impl Pace {
     /// now, and so are those after it in their turn: the process was stopped, or the machine paused.
     pub fn wait(&mut self, tick: u64) -> Woken {
         let due_ns = self.due_ns(tick);
-        let sleep_ns = due_ns.saturating_sub(SPIN_NS);
+        let sleep_ns = due_ns.saturating_sub(self.spin_ns);
         if now_ns() < sleep_ns {
             // Woken early by a signal: the spin takes the rest, and the loop looks at its flag.
             sleep_until(sleep_ns);

@@ -27,7 +27,7 @@ pub fn check_clock(wanted: RealTime, duration: Duration) -> ClockCheck {
     let check = thread::spawn(move || {
         let refused = claim_real_time(wanted.cpu);
         let mut late = Durations::new();
-        let mut pace = Pace::with_slip_limit(wanted.slip_limit_ns);
+        let mut pace = Pace::keeping(&wanted);
         for tick in 0..ticks {
             let woken = pace.wait(tick);
             late.add((woken.at_ns - pace.due_ns(tick)) + woken.slip_ns);
@@ -49,7 +49,7 @@ impl ClockCheck {
     /// In a line.
     pub fn verdict(&self) -> String {
         let (p999_ms, max_ms) = (self.late.percentile_ms(99.9), self.late.longest_ms());
-        let late = format!("ticks up to {max_ms:.2} ms late");
+        let late = format!("ticks up to {max_ms:.3} ms late when tried");
         let scheduling = if self.refused.is_empty() { "" } else { "; not all was granted" };
         if self.misses_ticks() {
             format!(

@@ -13,7 +13,7 @@ use engine::{Outputs, STEP_S};
 /// Higher than this above its wheels' contact the aircraft flies, m: below it the corridor is not asked for.
 const FLYING_M: f64 = 5.0;
 
-/// The last touchdown.
+/// A touchdown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touchdown {
     /// When.
@@ -59,7 +59,7 @@ impl Excursions {
 pub struct Debrief {
     /// How often the wheels took weight.
     pub touchdowns: u64,
-    /// The last time they did.
+    /// The last landing; of its bounces, the hardest.
     pub touchdown: Option<Touchdown>,
     /// Times outside the conversion corridor.
     pub corridor: Excursions,
@@ -67,6 +67,8 @@ pub struct Debrief {
     pub flap_speed: Excursions,
     /// Where the model's answer was not to be trusted.
     pub validity: Validity,
+    /// It has flown since the last touchdown: what comes is no bounce.
+    flown: bool,
     before: Option<Seen>,
 }
 
@@ -93,7 +95,7 @@ impl Debrief {
             && !before.on_wheels
         {
             self.touchdowns += 1;
-            self.touchdown = Some(Touchdown {
+            let touchdown = Touchdown {
                 tick: outputs.tick,
                 sink_mps: before.sink_mps,
                 speed_mps: before.speed_mps,
@@ -101,13 +103,18 @@ impl Debrief {
                 north_m: outputs.position_m.x,
                 east_m: outputs.position_m.y,
                 hard: before.sink_mps > envelope.airframe.touchdown_sink_mps_max,
-            });
+            };
+            let bounce =
+                self.touchdown.filter(|last| !self.flown && last.sink_mps > before.sink_mps);
+            self.touchdown = bounce.or(Some(touchdown));
+            self.flown = false;
         }
         self.validity |= outputs.validity;
         let flying = !now.on_wheels && outputs.height_above_ground_m > FLYING_M;
         let (tilt_rad, cas_mps) =
             (outputs.actuators.mast_tilt_rad.mean(), outputs.calibrated_airspeed_mps);
         let outside_mps = -envelope.corridor.margin_mps(tilt_rad, cas_mps);
+        self.flown |= flying;
         self.corridor.add(if flying { outside_mps } else { 0.0 });
         let detent =
             (outputs.cockpit.flap_detent as usize).min(envelope.airspeed.flap_mps_max.len() - 1);
@@ -188,6 +195,25 @@ mod tests {
         {
             assert!(line.contains(words), "{line}");
         }
+    }
+
+    #[test]
+    fn of_a_landing_with_bounces_the_hardest_is_told() {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let mut debrief = Debrief::default();
+        let mut outputs = Outputs::default();
+        let mut land = |height_m: f64, sink_mps: f64| {
+            outputs.height_above_ground_m = height_m;
+            outputs.velocity_mps.z = sink_mps;
+            outputs.landing_gear.main.left.push_n = 0.0;
+            debrief.add(&xv15.envelope, &outputs);
+            outputs.landing_gear.main.left.push_n = 1000.0;
+            debrief.add(&xv15.envelope, &outputs);
+            debrief.touchdown.unwrap().sink_mps
+        };
+        assert_eq!(land(20.0, 5.0), 5.0);
+        assert_eq!(land(2.0, 1.0), 5.0, "a bounce");
+        assert_eq!(land(20.0, 1.5), 1.5, "another landing");
     }
 
     #[test]

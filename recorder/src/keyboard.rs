@@ -474,7 +474,8 @@ mod tests {
                         save: &mut false,
                     },
                 );
-                self.seen.cockpit = cockpit::update(&self.map, &self.seen.cockpit, &events);
+                self.seen.cockpit =
+                    cockpit::update(&self.map, &self.seen.cockpit, &events, engine::STEP_S);
                 self.seen.tick += 1;
                 self.events.extend(events);
             }

@@ -12,6 +12,8 @@ pub mod debrief;
 pub mod devices;
 mod end;
 mod flight;
+pub mod flightgear_controls;
+pub mod ground;
 mod hands;
 pub mod keyboard;
 mod landing;

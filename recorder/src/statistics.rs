@@ -12,15 +12,23 @@ const LONGEST_NS: u64 = 60_000_000_000;
 #[derive(Clone, Debug)]
 pub struct Durations(Histogram<u64>);
 
+impl Default for Durations {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Durations {
-    pub(crate) fn new() -> Self {
+    /// None yet.
+    pub fn new() -> Self {
         // Three digits between 1 ns and a minute; the bounds are constants, so this cannot fail.
         Self(Histogram::new_with_bounds(1, LONGEST_NS, 3).unwrap_or_else(|_| {
             Histogram::new(3).unwrap_or_else(|_| unreachable!("3 digits are allowed"))
         }))
     }
 
-    pub(crate) fn add(&mut self, ns: u64) {
+    /// Adds one.
+    pub fn add(&mut self, ns: u64) {
         self.0.saturating_record(ns.max(1));
     }
 

@@ -212,6 +212,8 @@ impl Facts {
     /// When it cannot be read.
     pub fn read(reader: &mut FlightReader, window: &Window) -> Result<Self, ReplayError> {
         let mut facts = Self::of_reading(reader);
+        reader.states_as_bytes = true;
+        reader.fly_states_only(0);
         let disorder = loop {
             match reader.next_tick() {
                 Ok(Some(tick)) => facts.add(tick, None),

@@ -14,6 +14,7 @@ mod refly;
 mod rewrite;
 mod source;
 mod stage;
+mod stretches;
 mod summary;
 mod ticks;
 mod verify;

@@ -58,7 +58,8 @@ impl fmt::Display for OutputsDifference {
 /// Compares what was recorded with what is computed, whichever comes first.
 pub(crate) struct OutputsCheck {
     names: Names,
-    every_ticks: u64,
+    /// Ticks between two of which outputs are recorded.
+    pub(crate) every_ticks: u64,
     computed: BTreeMap<u64, Outputs>,
     pub(crate) first: Option<OutputsDifference>,
 }

@@ -1,6 +1,7 @@
 //! What an engineer reads of a flight: what happened, the greatest values and when, how it touched down,
 //! where it ended.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
@@ -122,6 +123,8 @@ pub struct Summary {
     pub gathered: Gathered,
     /// Last digest.
     pub digest: u64,
+    /// Other facts of the log: name, keys and values.
+    pub facts: Vec<(String, BTreeMap<String, String>)>,
     /// What the log is.
     pub judgement: Judgement,
 }
@@ -159,6 +162,7 @@ pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
         remarks,
         gathered,
         digest,
+        facts: std::mem::take(&mut flight.reader.other_facts),
         judgement: facts.judge(),
     })
 }

@@ -1,12 +1,15 @@
 //! Does a log refly to the same bits?
 
+use std::num::NonZero;
 use std::path::Path;
+use std::thread;
 
 use crate::diagnosis::Diagnosis;
 use crate::divergence::Divergence;
 use crate::growth::WINDOW_TICKS;
 use crate::judgement::{Facts, Judgement, disorder};
 use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
+use crate::stretches::{self, Passed};
 use crate::versions::Versions;
 
 /// How to verify.
@@ -18,11 +21,16 @@ pub struct Options {
     pub window: Window,
     /// Fly logs of other versions of the flight model as well, as a comparison.
     pub across_versions: bool,
+    /// Threads that fly, the one that reads included. What comes out is the same for any number; 0 flies
+    /// in one pass, as after a difference.
+    pub threads: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { growth_ticks: WINDOW_TICKS, window: Window::default(), across_versions: false }
+        let threads = thread::available_parallelism().map_or(1, NonZero::get);
+        let window = Window::default();
+        Self { growth_ticks: WINDOW_TICKS, window, across_versions: false, threads }
     }
 }
 
@@ -51,9 +59,42 @@ pub fn verify(
     options: &Options,
     mut progress: impl FnMut(u64),
 ) -> Result<Verdict, ReplayError> {
-    let Options { window, across_versions, .. } = *options;
-    let mut flight = Reflight::open(path, &ReflyOptions { window, across_versions })?;
-    flight.outputs_taken = true;
+    let open = || -> Result<Reflight, ReplayError> {
+        let Options { window, across_versions, .. } = *options;
+        let mut flight = Reflight::open(path, &ReflyOptions { window, across_versions })?;
+        flight.outputs_taken = true;
+        flight.outputs_ticks = flight.outputs_check.every_ticks;
+        Ok(flight)
+    };
+    let mut flight = open()?;
+    if options.threads > 0 && flight.can_begin_anywhere() {
+        let passed = stretches::fly(&mut flight, options.threads, &options.window, &mut progress)?;
+        match passed {
+            Passed::Same(facts) => {
+                let versions = Versions::of(&flight).map(Box::new);
+                let (judgement, facts) = (facts.judge(), *facts);
+                return Ok(Verdict { judgement, facts, divergence: None, versions });
+            }
+            Passed::Differs(proven) => {
+                let mut again = open()?;
+                again.outputs_check = flight.outputs_check;
+                again.proven = proven;
+                flight = again;
+            }
+        }
+    }
+    if options.threads > 0 {
+        flight.reader.fly_states_only(options.threads - 1);
+    }
+    one_pass(flight, options, progress)
+}
+
+/// The same in one pass, tick by tick.
+fn one_pass(
+    mut flight: Reflight,
+    options: &Options,
+    mut progress: impl FnMut(u64),
+) -> Result<Verdict, ReplayError> {
     let mut facts = Facts::of_reflight(&flight);
     let mut diagnosis = Diagnosis::of(&flight)?;
     let disorder = loop {

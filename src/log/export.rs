@@ -65,7 +65,7 @@ fn one(log: &Path, folder: &Path, form: Form, force: bool) -> Status {
     let mut shown_s = 0;
     let judgement = replay::judge(log, &Window::default());
     let judged = Judged { outcome: judgement.outcome.name(), words: &judgement.words };
-    let exported = export(log, folder, form, force, judged, |time_ns| {
+    let exported = export(log, folder, form, force, judged, replay::flown, |time_ns| {
         let now_s = time_ns / 1_000_000_000;
         if now_s != shown_s {
             shown_s = now_s;

@@ -6,7 +6,7 @@ use engine::STEP_S;
 use engine::inputs::World;
 use engine::math::{atan2, max, sqrt};
 use engine::outputs::Severity;
-use engine::units::{FOOT_M, FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees, knots};
+use engine::units::{FOOT_M, FPM_PER_MPS, RPM_PER_RADPS, degrees, knots};
 use logs::view::Level;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -21,26 +21,40 @@ use super::cockpit::Cockpit;
 
 /// The smallest terminal in which all of it fits.
 const SIZE_MIN: (u16, u16) = (80, 24);
-/// Cells of a control's bar.
-const BAR: usize = 21;
+/// Columns beside a control's bar: its name, what its ends are called, the frame.
+const AROUND_BAR: u16 = 19;
 
 /// What is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Page {
     /// The flight.
     Flight,
-    /// The active controls and keys.
-    Controls,
+    /// The active controls and keys, from this line on.
+    Controls(usize),
 }
 
 impl Page {
-    /// The page after it.
-    pub fn next(self) -> Self {
+    /// The page after it, on a terminal of this size.
+    pub fn next(self, lines: usize, columns: u16, rows: u16) -> Self {
+        let (columns, rows) = lists(columns.saturating_sub(2), rows.saturating_sub(AROUND_ROWS));
         match self {
-            Self::Flight => Self::Controls,
-            Self::Controls => Self::Flight,
+            Self::Flight => Self::Controls(0),
+            Self::Controls(from) if from + columns * rows < lines => {
+                Self::Controls(from + columns * rows)
+            }
+            Self::Controls(_) => Self::Flight,
         }
     }
+}
+
+/// Rows of the screen around a list of controls.
+const AROUND_ROWS: u16 = 10;
+/// Columns that a line of it needs.
+const LIST_COLUMNS: u16 = 58;
+
+/// Lists side by side, and the lines of each.
+fn lists(columns: u16, rows: u16) -> (usize, usize) {
+    (usize::from((columns / LIST_COLUMNS).max(1)), usize::from(rows.max(1)))
 }
 
 /// Everything that a picture is made of.
@@ -107,13 +121,11 @@ pub fn draw(frame: &mut Frame<'_>, look: &Look<'_>) {
     title(frame, head, look);
     match look.page {
         Page::Flight => flight(frame, body, look),
-        Page::Controls => controls_page(frame, body, look),
+        Page::Controls(from) => controls_page(frame, body, look, from),
     }
     told(frame, events, look);
     let keys = match look.cockpit.keys_fly {
-        true => {
-            " ? controls  arrows stick  PgUp/PgDn lever  n/b nacelles  p freeze  S save  R reset  Q end"
-        }
+        true => " ? keys  arrows stick  PgUp/PgDn lever  n/b nacelles  p freeze  S save  Q end",
         false => " ? controls   Q or Ctrl-C end",
     };
     frame.render_widget(Paragraph::new(keys).style(Style::new().add_modifier(Modifier::DIM)), foot);
@@ -147,7 +159,7 @@ fn title(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 
 fn flight(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let [left, middle, right] =
-        Layout::horizontal([Constraint::Length(24), Constraint::Min(30), Constraint::Length(26)])
+        Layout::horizontal([Constraint::Length(26), Constraint::Min(30), Constraint::Length(24)])
             .areas(area);
     let [attitude_area, numbers_area] =
         Layout::vertical([Constraint::Length(7), Constraint::Min(9)]).areas(left);
@@ -168,7 +180,10 @@ fn attitude(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let euler = look.shown.outputs.euler;
     let (s, c) = engine::math::sin_cos(euler.roll_rad);
     let pitch_deg = degrees(euler.pitch_rad);
-    let words = format!("roll {:+4.0}° pitch {:+4.0}°", degrees(euler.roll_rad), pitch_deg);
+    // No minus before a nought.
+    let whole = |deg: f64| deg.round() + 0.0;
+    let (roll, pitch) = (whole(degrees(euler.roll_rad)), whole(pitch_deg));
+    let words = format!("roll {roll:+4.0}° pitch {pitch:+4.0}°");
     let canvas = Canvas::default()
         .block(Block::bordered().title(words))
         // Dots show in every font and without colours.
@@ -191,29 +206,33 @@ fn attitude(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 fn numbers(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let o = &look.shown.outputs;
     let limits = &look.cockpit.envelope.rotors;
-    let mast_n_m = o.engines.torque_n_m.map(|torque_n_m| torque_n_m);
+    let mast_n_m = o.engines.torque_n_m;
     let torque_max_n_m = limits.short_torque_n_m_max.at(o.rotor_speed_radps);
     let torque = 100.0 * max(mast_n_m.left, mast_n_m.right) / max(torque_max_n_m, 1.0);
     let rotor = 100.0 * o.rotor_speed_radps / limits.rated_radps;
-    let rows: [(&str, f64, usize, &str, Style); 9] = [
-        ("airspeed", o.calibrated_airspeed_mps * KT_PER_MPS, 0, "kt", Style::new()),
-        ("height", o.height_above_ground_m / FOOT_M, 0, "ft", Style::new()),
-        ("climb", -o.velocity_mps.z * FPM_PER_MPS, 0, "ft/min", Style::new()),
-        ("heading", degrees(o.euler.heading_rad).rem_euclid(360.0), 0, "deg", Style::new()),
-        ("nacelles", 90.0 - degrees(o.actuators.mast_tilt_rad.mean()), 0, "deg", Style::new()),
-        ("rotors", rotor, 0, "%", look.style_of_rotor()),
-        ("", o.rotor_speed_radps * RPM_PER_RADPS, 0, "rpm", Style::new()),
-        ("torque", torque, 0, "%", if torque > 100.0 { look.warning() } else { Style::new() }),
-        ("fuel", o.fuel_kg, 0, "kg", Style::new()),
+    let rpm = format!("% {:.0} rpm", o.rotor_speed_radps * RPM_PER_RADPS);
+    let torque_style = if torque > 100.0 { look.warning() } else { Style::new() };
+    let v = o.body_velocity_mps;
+    let (forward, right) = (knots(v.x).round() + 0.0, knots(v.y).round() + 0.0);
+    let rows: [(&str, f64, &str, Style); 8] = [
+        ("airspeed", knots(o.calibrated_airspeed_mps), "kt", Style::new()),
+        ("height", o.height_above_ground_m / FOOT_M, "ft", Style::new()),
+        ("climb", -o.velocity_mps.z * FPM_PER_MPS, "ft/min", Style::new()),
+        ("heading", degrees(o.euler.heading_rad).rem_euclid(360.0), "deg", Style::new()),
+        ("nacelles", 90.0 - degrees(o.actuators.mast_tilt_rad.mean()), "deg", Style::new()),
+        ("rotors", rotor, &rpm, look.style_of_rotor()),
+        ("torque", torque, "%", torque_style),
+        ("fuel", o.fuel_kg, "kg", Style::new()),
     ];
-    let lines = rows.map(|(name, value, digits, unit, style)| {
+    let lines = rows.map(|(name, value, unit, style)| {
         // No minus before a nought.
         let value = if value.abs() < 0.5 { 0.0 } else { value };
-        let figure =
-            Span::styled(format!("{value:>7.digits$}"), style.add_modifier(Modifier::BOLD));
-        Line::from(vec![Span::raw(format!(" {name:<9}")), figure, Span::raw(format!(" {unit}"))])
+        let figure = Span::styled(format!("{value:>6.0}"), style.add_modifier(Modifier::BOLD));
+        Line::from(vec![Span::raw(format!(" {name:<8}")), figure, Span::raw(format!(" {unit}"))])
     });
-    frame.render_widget(Paragraph::new(lines.to_vec()), area);
+    let mut lines = lines.to_vec();
+    lines.insert(1, Line::raw(format!(" drift kt  fwd {forward:+.0} right {right:+.0}")));
+    frame.render_widget(Paragraph::new(lines), area);
 }
 
 impl Look<'_> {
@@ -224,14 +243,14 @@ impl Look<'_> {
 }
 
 /// A bar with a mark where the control is, and another where hardware waits to pick it up.
-fn bar(at_norm: f64, low_norm: f64, waits_at_norm: Option<f64>) -> String {
+fn bar(count: usize, at_norm: f64, low_norm: f64, waits_at_norm: Option<f64>) -> String {
     let cell = |norm: f64| {
         let part = (norm - low_norm) / (1.0 - low_norm);
-        ((part * (BAR - 1) as f64).round().max(0.0) as usize).min(BAR - 1)
+        ((part * (count - 1) as f64).round() as usize).min(count - 1)
     };
-    let middle = if low_norm < 0.0 { Some(BAR / 2) } else { None };
+    let middle = if low_norm < 0.0 { Some(count / 2) } else { None };
     let mut cells: Vec<char> =
-        (0..BAR).map(|i| if Some(i) == middle { '┼' } else { '─' }).collect();
+        (0..count).map(|i| if Some(i) == middle { '┼' } else { '─' }).collect();
     if let Some(waits) = waits_at_norm {
         cells[cell(waits)] = '○';
     }
@@ -248,11 +267,16 @@ fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         waiting.find(|waits| waits.control == control).and_then(|waits| waits.hardware_norm)
     };
     use engine::cockpit::AxisControl as A;
+    // Odd, so that there is a middle.
+    let cells = usize::from(area.width.saturating_sub(AROUND_BAR).clamp(9, 41)) / 2 * 2 + 1;
+    let axis = |low, at_norm, low_norm, waits_at_norm, high| {
+        (low, bar(cells, at_norm, low_norm, waits_at_norm), high)
+    };
     let rows = [
-        ("fwd", bar(c.stick_aft_norm, -1.0, waits(A::StickAft)), "aft"),
-        ("left", bar(c.stick_right_norm, -1.0, waits(A::StickRight)), "right"),
-        ("left", bar(c.pedal_right_norm, -1.0, waits(A::PedalRight)), "right"),
-        ("down", bar(c.collective_norm, 0.0, waits(A::Collective)), "up"),
+        axis("fwd", c.stick_aft_norm, -1.0, waits(A::StickAft), "aft"),
+        axis("left", c.stick_right_norm, -1.0, waits(A::StickRight), "right"),
+        axis("left", c.pedal_right_norm, -1.0, waits(A::PedalRight), "right"),
+        axis("down", c.collective_norm, 0.0, waits(A::Collective), "up"),
     ];
     let names = ["stick", "stick", "pedal", "lever"];
     let mut lines: Vec<Line<'_>> = names
@@ -267,23 +291,17 @@ fn controls(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         _ => "off",
     };
     let gear = 100.0 * o.actuators.gear_extension_norm;
-    lines.push(Line::raw(format!(
-        "nacelle switch {nacelles:<8} flaps {:.0} deg",
-        degrees(o.actuators.flap_rad) + 0.0
-    )));
-    lines.push(Line::raw(format!(
-        "gear {} ({gear:.0} %)  SCAS {}  rpm {}",
-        switch(c.gear_down, "down", "up"),
-        switch(c.scas_on, "on", "OFF"),
-        c.rpm_select
-    )));
-    lines.push(Line::raw(format!(
-        "parking brake {}  toe brakes {:.0} %",
-        switch(c.parking_brake, "set", "off"),
-        100.0 * max(c.brake_norm.left, c.brake_norm.right)
-    )));
+    let flap_deg = degrees(o.actuators.flap_rad) + 0.0;
+    lines.push(Line::raw(format!("nac. switch {nacelles:<7} flaps {flap_deg:.0}°")));
+    let gear_handle = switch(c.gear_down, "down", "up");
+    lines.push(Line::raw(format!("gear {gear_handle} {gear:.0} %  rpm no. {}", c.rpm_select)));
+    let (scas, parking) = (switch(c.scas_on, "on", "OFF"), switch(c.parking_brake, "set", "off"));
+    lines.push(Line::raw(format!("SCAS {scas}  parking brake {parking}")));
+    let brakes = 100.0 * max(c.brake_norm.left, c.brake_norm.right);
+    lines.push(Line::raw(format!("toe brakes {brakes:.0} %")));
     if engine::cockpit::waiting(c).next().is_some() {
-        lines.push(Line::styled("○ bring the hardware there to pick it up", look.caution()));
+        lines.pop();
+        lines.push(Line::styled("○ waits to be picked up", look.caution()));
     }
     frame.render_widget(Paragraph::new(lines).block(Block::bordered().title("controls")), area);
 }
@@ -295,12 +313,12 @@ fn timing(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let late = if ms(shown.late_ns) > 4.0 { look.warning() } else { Style::new() };
     let latency = match shown.latency_ns {
         0 => "no hardware moved".into(),
-        ns => format!("{:.1} ms, input to picture", ms(ns)),
+        ns => format!("input to picture {:.1} ms", ms(ns)),
     };
-    let slips = format!("slips {}, {:.1} s in all", now.slips, now.slipped_s);
+    let slips = format!("{} slips ({:.1} s)", now.slips, now.slipped_s);
     let lines = vec![
         Line::styled(
-            format!("late {:.2} ms, {:.2} at most", ms(shown.late_ns), ms(shown.late_ns_max)),
+            format!("late {:.2} ms, max {:.2}", ms(shown.late_ns), ms(shown.late_ns_max)),
             late,
         ),
         Line::styled(
@@ -343,9 +361,9 @@ fn corridor(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let margin_mps = corridor.margin_mps(tilt_rad, o.calibrated_airspeed_mps);
     let flying = o.height_above_ground_m > 5.0;
     let (words, style) = if flying && margin_mps < 0.0 {
-        ("OUTSIDE THE CORRIDOR", look.warning())
+        ("OUTSIDE CORRIDOR", look.warning())
     } else {
-        ("corridor, 0..300 kt", Style::new())
+        ("corridor 0..300 kt", Style::new())
     };
     let canvas = Canvas::default()
         .block(Block::bordered().title(Span::styled(words, style)))
@@ -408,21 +426,16 @@ fn told(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
 }
 
 /// The active controls, in as many columns as fit.
-fn controls_page(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
+fn controls_page(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>, from: usize) {
     let lines = &look.cockpit.controls;
-    let rows = usize::from(area.height.saturating_sub(2)).max(1);
-    let columns = lines.len().div_ceil(rows).max(1);
     let block = Block::bordered().title("controls of this flight");
     let inner = block.inner(area);
     frame.render_widget(block, area);
+    let (columns, rows) = lists(inner.width, inner.height);
     let widths = vec![Constraint::Fill(1); columns];
     for (column, place) in Layout::horizontal(widths).split(inner).iter().enumerate() {
-        let part: Vec<Line<'_>> = lines
-            .iter()
-            .skip(column * rows)
-            .take(rows)
-            .map(|line| Line::raw(line.as_str()))
-            .collect();
+        let part = lines.iter().skip(from + column * rows).take(rows);
+        let part: Vec<Line<'_>> = part.map(|line| Line::raw(line.as_str())).collect();
         frame.render_widget(Paragraph::new(part), *place);
     }
 }
@@ -496,7 +509,7 @@ mod tests {
 
     #[test]
     fn regress_the_page_of_controls() {
-        insta::assert_snapshot!(picture(Page::Controls, &flying(), (120, 30)));
+        insta::assert_snapshot!(picture(Page::Controls(0), &flying(), (120, 30)));
     }
 
     #[test]

@@ -92,7 +92,11 @@ impl Panel {
             }
             match meaning(&event) {
                 Some(Key::End) => progress.stop.store(true, Ordering::Relaxed),
-                Some(Key::NextPage) => page = page.next(),
+                Some(Key::NextPage) => {
+                    let size = screen.terminal.size()?;
+                    let lines = self.cockpit.controls.len();
+                    page = page.next(lines, size.width, size.height);
+                }
                 Some(Key::Reposition(place)) => {
                     if let Some(restart) = (self.start)(place) {
                         self.give(Order::Restart(restart?));

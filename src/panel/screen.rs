@@ -1,6 +1,6 @@
 //! The terminal while the panel has it, and given back whatever happens.
 
-use std::io::{self, Stderr, stderr};
+use std::io::{self, IsTerminal, Stderr, stderr};
 use std::sync::Once;
 
 use crossterm::cursor::{Hide, Show};
@@ -34,7 +34,9 @@ impl Screen {
         // From here on it is given back, whatever fails.
         let guard = Guard;
         execute!(stderr(), EnterAlternateScreen, Hide)?;
-        let tells_releases = supports_keyboard_enhancement().unwrap_or(false);
+        // The question goes to standard output.
+        let asked = io::stdout().is_terminal();
+        let tells_releases = asked && supports_keyboard_enhancement().unwrap_or(false);
         if tells_releases {
             let flags = KeyboardEnhancementFlags::DISAMBIGUATE_ESCAPE_CODES
                 | KeyboardEnhancementFlags::REPORT_EVENT_TYPES;

@@ -6,6 +6,8 @@
 // Each test file is a program of its own and uses its part.
 #![allow(dead_code)]
 
+pub mod flightgear;
+
 use std::collections::VecDeque;
 use std::fmt::Write as _;
 use std::fs;
@@ -15,7 +17,7 @@ use std::process::{Command, Output};
 
 use logs::cdr;
 use logs::fields::fields;
-use logs::records::{STATE, StateRecord};
+use logs::records::{Chain, HARDWARE, INPUTS, RESTART, STATE, StateRecord, first_digest};
 use mcap::records::{Metadata, Record};
 use mcap::{Attachment, Message, MessageStream, WriteOptions};
 use serde::Serialize;
@@ -275,6 +277,39 @@ pub fn flip_state_bit(forgery: &mut Forgery, tick: usize, path: &str) {
     let place = place_of::<StateRecord>(&format!("state.{path}"));
     // The first message is the state at the start.
     forgery.bytes(STATE, tick)[place] ^= 1;
+}
+
+/// Forms the digests anew, up to the writer's last word.
+pub fn chain_anew(log: &mut Forgery) {
+    let mut chain = None;
+    let files: Vec<_> = log
+        .attachments
+        .iter()
+        .map(|file| (file.name.clone(), String::from_utf8(file.data.to_vec()).expect("text")))
+        .collect();
+    let files: Vec<_> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    for message in &mut log.messages {
+        match (message.channel.topic.as_str(), &mut chain) {
+            (STATE, chain) => {
+                let state = [&cdr::HEADER[..], &message.data[cdr::HEADER.len() + 8..]].concat();
+                let digest = match chain {
+                    None => {
+                        let digest = first_digest(&files, &state);
+                        *chain = Some(Chain::from(digest));
+                        digest
+                    }
+                    Some(chain) => chain.close(&state),
+                };
+                message.data.to_mut()[cdr::HEADER.len()..][..8]
+                    .copy_from_slice(&digest.to_le_bytes());
+            }
+            (HARDWARE | INPUTS | RESTART, Some(chain)) => chain.add(&message.data),
+            _ => {}
+        }
+    }
+    let digest = chain.expect("a state").digest().to_string();
+    let closing = log.metadata.iter_mut().find(|record| record.name == "tiltrotor_closing");
+    closing.expect("a last word").metadata.insert("digest".into(), digest);
 }
 
 /// Random enough to choose moments and bits: splitmix64.

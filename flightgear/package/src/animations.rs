@@ -11,11 +11,11 @@
 use std::fmt::Write as _;
 
 use engine::aircraft::Params as Aircraft;
-use engine::math::{TAU, cos, sin};
+use engine::math::{TAU, cos, sin, sqrt};
 use engine::units::DEG_PER_RAD;
 
 use crate::ac3d::number;
-use crate::mesh::{Point, sub};
+use crate::mesh::{Point, dot, sub};
 use crate::shape::{SIDES, cockpit, gear, lights, nacelle, rotor, tail, wing};
 
 /// Blades are seen below this rotor speed, the blur above the second.
@@ -294,7 +294,6 @@ impl Model {
         let dark = "<greater-than><property>/sim/time/sun-angle-rad</property><value>1.4</value></greater-than>";
         for light in lights::lights(aircraft) {
             let halo = format!("halo.{}", light.name);
-            let centre = vector("center", self.place(light.at_m), "-m");
             if light.name.starts_with("nav") {
                 self.show_if(&[&halo], dark);
             } else {
@@ -309,11 +308,14 @@ impl Model {
                 );
                 self.animation("timed", &[&halo, &format!("off.{}", light.name)], &rest);
             }
-            self.animation(
-                "billboard",
-                &[&halo],
-                &format!("  <spherical type=\"bool\">true</spherical>\n{centre}"),
+            let at = self.place(light.at_m);
+            let rest = format!(
+                "  <offset-m>{}</offset-m>\n{}",
+                number(sqrt(dot(at, at))),
+                vector("axis", at, "")
             );
+            self.animation("translate", &[&halo], &rest);
+            self.animation("billboard", &[&halo], "  <spherical type=\"bool\">true</spherical>\n");
         }
         let down = "<greater-than><property>tiltrotor/gear/unit[0]/position-norm</property><value>0.9</value></greater-than>";
         self.show_if(&["landing.lamp"], down);
@@ -409,8 +411,8 @@ fn dust(rotor: usize, name: &str, at: Point) -> String {
   <counter><particles-per-sec><value>24</value><spread>4</spread></particles-per-sec></counter>
   <particle>
    <start>
-    <color><red><value>0.78</value></red><green><value>0.72</value></green><blue><value>0.62</value></blue><alpha><value>0.35</value></alpha></color>
-    <size><value>1.2</value></size>
+    <color><red><value>0.78</value></red><green><value>0.72</value></green><blue><value>0.62</value></blue><alpha><value>0.22</value></alpha></color>
+    <size><value>1.8</value></size>
    </start>
    <end>
     <color><red><value>0.80</value></red><green><value>0.75</value></green><blue><value>0.66</value></blue><alpha><value>0.0</value></alpha></color>

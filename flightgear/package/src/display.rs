@@ -24,10 +24,12 @@ fn view(aircraft: &Aircraft, station_m: Point) -> String {
 /// The entry file.
 pub fn set(aircraft: &Aircraft) -> String {
     let [aft, up] = cockpit::EYE_M;
+    let nose = aircraft.display.fuselage.section_m.first().map_or(aft, |section| section[0]);
     let cabin = [5.75, 0.0, up + 0.05];
     SET.replace("@PILOT@", &view(aircraft, [aft, cockpit::SEAT_M, up]))
         .replace("@COPILOT@", &view(aircraft, [aft, -cockpit::SEAT_M, up]))
         .replace("@CREW@", &view(aircraft, cabin))
+        .replace("@HOVER@", &view(aircraft, [nose - 0.15, 0.0, 1.1]))
 }
 
 /// Numbers for the display: the conversion corridor's outline and the limits of its scales.

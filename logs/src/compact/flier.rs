@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use engine::frames::Attitude;
 use engine::inputs::{DeviceEvent, World};
-use engine::{Aircraft, Inputs, Outputs, State, observe, step};
+use engine::{Aircraft, Inputs, Outputs, State, observe, step, step_state};
 
 use crate::channels::{Channel, ChannelId, Written};
 use crate::records::{InputsRecord, RestartRecord, StateRecord};
@@ -38,7 +38,7 @@ pub fn short_digest(message: &[u8]) -> u32 {
 
 /// Flies what the log says.
 pub struct Flier {
-    of: Flown,
+    pub of: Flown,
     shape: Shape,
     /// After the last tick; as it was recorded, where it was.
     pub state: State,
@@ -51,9 +51,24 @@ pub struct Flier {
     outputs: VecDeque<(Outputs, Attitude)>,
     /// Before this, outputs are not known: the reading began in the middle.
     pub begun_tick: u64,
+    /// Outputs are computed only where they are kept.
+    pub states_only: bool,
+}
+
+/// Whether the outputs of a tick are kept.
+pub fn is_kept(tick: u64) -> bool {
+    tick.is_multiple_of(OUTPUTS_TICKS)
+}
+
+/// A tick that was flown.
+pub struct FlownTick {
+    pub state: State,
+    /// Where they are kept.
+    pub outputs: Option<Box<Outputs>>,
 }
 
 impl Flier {
+    /// With the aircraft and the world of the log.
     pub fn new(of: Flown) -> Self {
         Self {
             shape: Shape::of(&of.aircraft),
@@ -65,6 +80,7 @@ impl Flier {
             inputs: InputsRecord::default(),
             outputs: VecDeque::with_capacity(OUTPUTS_KEPT),
             begun_tick: 0,
+            states_only: false,
         }
     }
 
@@ -78,7 +94,7 @@ impl Flier {
         self.flown = None;
         if state.tick == 0 {
             // What was there to be seen before the first tick, as it was shown to the crew.
-            self.keep(observe(&self.of.aircraft, &state, &self.of.world));
+            self.keep(&observe(&self.of.aircraft, &state, &self.of.world));
         }
     }
 
@@ -98,21 +114,41 @@ impl Flier {
     /// Flies the tick.
     pub fn fly(&mut self) {
         let inputs = Inputs { events: &self.events, world: self.inputs.world };
-        let before = self.restart.take().unwrap_or(self.state);
-        let flown = step(&self.of.aircraft, &before, &inputs);
-        self.events.clear();
-        self.state = flown.0;
-        let (_, outputs) = self.flown.insert(flown);
-        let outputs = *outputs;
-        self.keep(outputs);
+        let aircraft = &self.of.aircraft;
+        self.state = self.restart.take().unwrap_or(self.state);
+        if self.states_only && !is_kept(self.state.tick.wrapping_add(1)) {
+            step_state(aircraft, &mut self.state, &inputs);
+            self.flown_state(None);
+        } else {
+            let (state, outputs) = step(aircraft, &self.state, &inputs);
+            self.state = state;
+            self.flown_state(Some(&outputs));
+        }
     }
 
-    fn keep(&mut self, outputs: Outputs) {
-        if outputs.tick.is_multiple_of(OUTPUTS_TICKS) {
+    /// Takes the tick as another thread flew it.
+    pub fn take(&mut self, flown: &FlownTick) {
+        self.state = flown.state;
+        self.flown_state(flown.outputs.as_deref());
+    }
+
+    fn flown_state(&mut self, outputs: Option<&Outputs>) {
+        self.events.clear();
+        self.restart = None;
+        let flown = self.flown.get_or_insert_default();
+        flown.0 = self.state;
+        if let Some(outputs) = outputs {
+            flown.1 = *outputs;
+            self.keep(outputs);
+        }
+    }
+
+    fn keep(&mut self, outputs: &Outputs) {
+        if is_kept(outputs.tick) {
             if self.outputs.len() == OUTPUTS_KEPT {
                 self.outputs.pop_front();
             }
-            self.outputs.push_back((outputs, self.state.plant.attitude));
+            self.outputs.push_back((*outputs, self.state.plant.attitude));
         }
     }
 

@@ -10,6 +10,7 @@
 //! read. Between keyframes a digest that was recorded meets a state that was flown again, and the
 //! digest chain tells whether they belong together.
 
+mod ahead;
 mod block;
 mod columns;
 mod expand;

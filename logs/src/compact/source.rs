@@ -2,18 +2,23 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+
+use engine::State;
 
 use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
 
+use super::ahead::{Crew, Restarts};
 use super::block::{Block, Op};
 use super::files::{broken, decode, form_of, refuse_other_form, refuse_other_layout, setup_of};
-use super::flier::{AircraftOf, Flier, short_digest};
+use super::flier::{AircraftOf, Flier, FlownTick, short_digest};
 use super::{HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
 use crate::container::checksums::add_message;
 use crate::container::{Compacted, LogFile, Record, RecordSource, Schema, stamped};
-use crate::records::{RESTART, STATE, StateRecord};
+use crate::records::{RESTART, RestartRecord, STATE, StateRecord};
 use crate::setup::{Identity, METADATA};
 use crate::{LogError, cdr};
 
@@ -49,6 +54,11 @@ pub(crate) struct Expander {
     /// Messages of the chunk so far that stand as they were.
     plain: VecDeque<Message>,
     block: Option<Unpacked>,
+    /// What was read of the file before its turn: blocks are flown meanwhile.
+    ahead: VecDeque<Ahead>,
+    crew: Option<Crew>,
+    /// The state with which the next block begins, as far as it is known before its turn.
+    next_from: Option<State>,
     /// Reading began in the middle: the next block is only read for its keyframe.
     skip_block: bool,
     sought: bool,
@@ -73,9 +83,22 @@ struct Tail {
     original: Option<(u64, u128)>,
 }
 
+/// Something that was read of the file before its turn.
+enum Ahead {
+    Record(Record),
+    Block(Box<Unpacked>),
+    /// How the file ends: whole, or not.
+    End(Result<(), LogError>),
+}
+
 /// A block, and how far it has been read.
 struct Unpacked {
-    block: Block,
+    block: Arc<Block>,
+    /// Its messages that stand as they were.
+    plain: VecDeque<Message>,
+    /// It is flown by another thread: what is still to be taken of it.
+    flown: Option<Receiver<Vec<FlownTick>>>,
+    ticks: VecDeque<FlownTick>,
     next: usize,
     row: Vec<usize>,
     digest: usize,
@@ -208,15 +231,81 @@ impl Expander {
         if !std::mem::replace(&mut self.begun, true) {
             return self.unpack_files(bytes);
         }
-        let block = Block::decode(bytes, self.with_outputs)?;
+        let block = Arc::new(Block::decode(bytes, self.with_outputs)?);
         let keyframe = if block.ops.contains(&Op::Keyframe) { self.plain.pop_back() } else { None };
         if std::mem::take(&mut self.skip_block) {
             self.plain.clear();
             let (_, data) = keyframe.ok_or_else(|| broken("a block without a keyframe"))?;
             return self.stand_at(&data);
         }
+        let plain = std::mem::take(&mut self.plain);
+        let from = self.next_from.take();
+        let restarts = self.restarts(&plain);
+        let flown =
+            self.crew.as_ref().zip(from).and_then(|(crew, from)| crew.fly(from, &block, restarts));
+        if let (Some((_, data)), Some(_)) = (&keyframe, &self.crew) {
+            self.next_from = Some(cdr::decode::<StateRecord>(data)?.state);
+        }
         let (row, view) = (vec![0; block.rows.len()], vec![0; block.view_ticks.len()]);
-        self.block = Some(Unpacked { block, next: 0, row, digest: 0, view, keyframe });
+        let ticks = VecDeque::new();
+        let (next, digest) = (0, 0);
+        let unpacked = Unpacked { block, plain, flown, ticks, next, row, digest, view, keyframe };
+        self.ahead.push_back(Ahead::Block(Box::new(unpacked)));
+        Ok(())
+    }
+
+    /// States among the messages of a block that take the place of flown ones; what cannot be read is found
+    /// wrong when its turn comes.
+    fn restarts(&self, plain: &VecDeque<Message>) -> Restarts {
+        let id = self.ids.get(RESTART);
+        let of = |(number, (header, data)): (usize, &Message)| {
+            let is_one = self.crew.is_some() && Some(&header.channel_id) == id;
+            let restart = is_one.then(|| cdr::decode::<RestartRecord>(data).ok())??;
+            Some((number, restart.state))
+        };
+        plain.iter().enumerate().filter_map(of).collect()
+    }
+
+    /// Reads on in the file, as far ahead as blocks can be flown meanwhile.
+    fn read_ahead(&mut self) {
+        let blocks = self.crew.as_ref().map_or(1, |crew| crew.blocks);
+        let is_block = |ahead: &&Ahead| matches!(ahead, Ahead::Block(_));
+        while !matches!(self.ahead.back(), Some(Ahead::End(_)))
+            && (self.ahead.is_empty()
+                || self.crew.is_some() && self.ahead.iter().filter(is_block).count() < blocks)
+        {
+            let mut of_file = std::mem::take(&mut self.record);
+            let read = match self.file.next(&mut of_file) {
+                Ok(true) => self.take(&mut of_file),
+                Ok(false) => {
+                    let end = self.close();
+                    self.ahead.push_back(Ahead::End(end));
+                    return;
+                }
+                Err(error) => Err(error),
+            };
+            match read {
+                Ok(true) => self.ahead.push_back(Ahead::Record(of_file)),
+                Ok(false) => self.record = of_file,
+                Err(error) => self.ahead.push_back(Ahead::End(Err(error))),
+            }
+            // Files and definitions come before what they are the files of.
+            if !self.ready.is_empty() {
+                return;
+            }
+        }
+    }
+
+    /// The next tick of the block under way, flown.
+    fn fly(&mut self) -> Result<(), LogError> {
+        let (Some(flier), Some(at)) = (&mut self.flier, &mut self.block) else { return Ok(()) };
+        if let Some(flown) = at.flown.take() {
+            at.ticks = flown.recv().unwrap_or_default().into();
+        }
+        match at.ticks.pop_front() {
+            Some(tick) => flier.take(&tick),
+            None => flier.fly(),
+        }
         Ok(())
     }
 
@@ -290,8 +379,11 @@ impl Expander {
     }
 
     fn plain(&mut self, record: &mut Record) -> Result<(), LogError> {
-        let (header, data) = self.plain.pop_front().ok_or_else(|| broken("a message less"))?;
+        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
+        let (header, data) = at.plain.pop_front().ok_or_else(|| broken("a message less"))?;
         if Some(&header.channel_id) == self.ids.get(STATE) {
+            // It is flown on from there.
+            (at.flown, at.ticks) = (None, VecDeque::new());
             self.stand_at(&data)?;
             self.states += 1;
             self.reflown = false;
@@ -325,8 +417,8 @@ impl Expander {
         self.states += 1;
         self.tick = self.tick.wrapping_add(1);
         self.reflown = true;
+        self.fly()?;
         if let Some(flier) = &mut self.flier {
-            flier.fly();
             self.tick = flier.state.tick;
             return flier.state_message(record.message(stamped(id, self.tick)), digest);
         }
@@ -343,8 +435,8 @@ impl Expander {
     fn end_of_block(&mut self, record: &mut Record) -> Result<(), LogError> {
         let keyframe = self.block.as_mut().and_then(|at| at.keyframe.take());
         let (header, data) = keyframe.ok_or_else(|| broken("a keyframe less"))?;
+        self.fly()?;
         if let Some(flier) = &mut self.flier {
-            flier.fly();
             // The same, or the log does not refly: then what was recorded counts.
             flier.state = cdr::decode::<StateRecord>(&data)?.state;
         }
@@ -412,15 +504,30 @@ impl RecordSource for Expander {
             if self.next_of_block(record)? {
                 return Ok(true);
             }
-            let mut of_file = std::mem::take(&mut self.record);
-            if !self.file.next(&mut of_file)? {
-                return self.close().map(|()| false);
+            self.read_ahead();
+            if !self.ready.is_empty() {
+                continue;
             }
-            if self.take(&mut of_file)? {
-                *record = of_file;
-                return Ok(true);
+            match self.ahead.pop_front() {
+                Some(Ahead::Record(read)) => {
+                    *record = read;
+                    return Ok(true);
+                }
+                Some(Ahead::Block(block)) => self.block = Some(*block),
+                Some(Ahead::End(end)) => return end.map(|()| false),
+                None => {}
             }
-            self.record = of_file;
+        }
+    }
+
+    fn fly_states_only(&mut self, threads: usize) {
+        let Some(flier) = &mut self.flier else { return };
+        flier.states_only = true;
+        if threads > 0 {
+            self.crew = Some(Crew::of(threads, &flier.of));
+            let keyframe = self.block.as_ref().and_then(|block| block.keyframe.as_ref());
+            let record = keyframe.and_then(|(_, data)| cdr::decode::<StateRecord>(data).ok());
+            self.next_from = record.map(|record| record.state);
         }
     }
 
@@ -430,6 +537,8 @@ impl RecordSource for Expander {
             self.block = None;
             self.plain.clear();
             self.ready.clear();
+            self.ahead.clear();
+            self.next_from = None;
             (self.skip_block, self.sought) = (true, true);
         }
         Ok(())

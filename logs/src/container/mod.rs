@@ -32,6 +32,10 @@ pub(crate) trait RecordSource: Send {
     /// When the file cannot be read.
     fn seek(&mut self, tick: u64) -> Result<(), LogError>;
 
+    /// Nobody looks at the outputs of a compacted log's ticks but where they are made again: its states are
+    /// flown on so many threads beside the one that reads.
+    fn fly_states_only(&mut self, _threads: usize) {}
+
     /// How the last state came about, if the file is compacted.
     fn compacted(&self) -> Option<Compacted<'_>> {
         None
@@ -59,7 +63,7 @@ impl Default for Box<dyn RecordSource> {
 pub(crate) struct Compacted<'a> {
     /// Whether it is as it was recorded, not flown again.
     pub recorded: bool,
-    /// The last tick as it was flown again.
+    /// The last tick as it was flown again; its outputs are of an earlier tick where nobody looks at them.
     pub flown: Option<(&'a State, &'a Outputs)>,
     /// The first tick whose outputs, computed again, have not the digest that was kept.
     pub outputs_differ: Option<u64>,

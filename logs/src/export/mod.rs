@@ -19,6 +19,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use crate::channels::ChannelId;
+use crate::compact::AircraftOf;
 use crate::fields::Value;
 use crate::layout::{Kind, Layout};
 use crate::output::{self, hidden};
@@ -130,9 +131,11 @@ pub fn export(
     form: Form,
     force: bool,
     judged: Judged,
+    aircraft_of: AircraftOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Exported, LogError> {
-    let mut messages = Messages::open(log, OpenOptions::default())?;
+    let options = OpenOptions { aircraft_of: Some(aircraft_of), across_versions: false };
+    let mut messages = Messages::open(log, options)?;
     let mut flight = Flight::new(log);
     let mut tables = Tables::new(folder, form)?;
     let mut known = None;

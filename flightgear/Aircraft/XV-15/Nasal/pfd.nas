@@ -4,7 +4,7 @@
 # this flight. A thing is drawn again only when what it shows has changed.
 
 var VIEW = 1000;
-var PIXELS = 640;
+var PIXELS = 512;
 var FONT = "LiberationFonts/LiberationSans-Bold.ttf";
 
 var WHITE = [0.96, 0.97, 0.98];
@@ -225,7 +225,7 @@ var Height = {
         var base = nearest(ft, 100);
         me.setBase(base);
         me.setOffset(nearest((ft - base) * FT_PX, 0.5));
-        me.setDigits(nearest(ft, ft > -1000 and ft < 1000 ? 1 : 5));
+        me.setDigits(nearest(ft, 1));
         var radar = value(me.radar);
         me.setRadar(radar < 0.5 ? 0 : nearest(radar, radar < 100 ? 1 : 10));
         var fpm = value(me.climb);
@@ -315,7 +315,6 @@ var Corridor = {
         var point = root.createChild("group");
         var dot = point.createChild("path").setColor([0, 0, 0]).setStrokeLineWidth(2).moveTo(-10, 0)
             .arcSmallCW(10, 10, 0, 20, 0).arcSmallCW(10, 10, 0, -20, 0);
-        m.setX = memo(func(x) m.moved = 1);
         m.setPoint = func(x, y) {
             if (m["x"] == x and m["y"] == y) return;
             m.x = x;
@@ -524,7 +523,7 @@ var Annunciators = {
 var parts = [];
 
 var build = func {
-    display = canvas.new({ name: "XV-15 PFD", size: [PIXELS, PIXELS], view: [VIEW, VIEW], mipmapping: 1 });
+    display = canvas.new({ name: "XV-15 PFD", size: [PIXELS, PIXELS], view: [VIEW, VIEW], mipmapping: 0 });
     display.setColorBackground(0.015, 0.018, 0.022, 1);
     var root = display.createGroup();
     parts = [Horizon.new(root), Airspeed.new(root), Height.new(root), Compass.new(root),
@@ -541,8 +540,17 @@ var update = func {
 var overlay = props.globals.getNode("sim/tiltrotor/overlay", 1);
 var overlay_size = props.globals.getNode("sim/tiltrotor/overlay-size-norm", 1);
 
+# Off: nothing is looked up or drawn, on the panel neither.
+var lit = props.globals.getNode("sim/tiltrotor/display", 1);
+
+var power = func {
+    if (value(lit)) timer.start();
+    else timer.stop();
+    show();
+};
+
 var show = func {
-    var mode = value(overlay);
+    var mode = value(lit) ? value(overlay) : 0;
     var inside = getprop("/sim/current-view/internal");
     var wanted = mode == 2 or (mode == 1 and !inside);
     if (!wanted) {
@@ -568,11 +576,12 @@ var cycle = func {
 var start = func {
     if (overlay.getValue() == nil) overlay.setValue(1);
     if (overlay_size.getValue() == nil) overlay_size.setValue(0.56);
+    if (lit.getValue() == nil) lit.setValue(1);
     build();
     timer = maketimer(0.04, update);
     timer.simulatedTime = 0;
-    timer.start();
-    setlistener(overlay, show, 1, 0);
+    setlistener(lit, power, 1, 0);
+    setlistener(overlay, show, 0, 0);
     setlistener("/sim/current-view/internal", show, 0, 0);
     foreach (var axis; ["xsize", "ysize"]) setlistener("/sim/startup/" ~ axis, show, 0, 0);
 };

@@ -14,9 +14,9 @@ use crate::paint;
 /// Buttline of a seat's middle, m.
 pub const SEAT_M: f64 = 0.36;
 /// Pilot's eye over the seat's middle: station and waterline, m.
-pub const EYE_M: [f64; 2] = [4.95, 1.86];
+pub const EYE_M: [f64; 2] = [4.95, 1.83];
 /// Where the sticks turn, m.
-pub const STICK_M: [f64; 2] = [4.52, 1.03];
+pub const STICK_M: [f64; 2] = [4.60, 0.98];
 /// Where the power levers turn: station, waterline, and how far left of the seat, m.
 pub const LEVER_M: [f64; 3] = [5.02, 1.22, 0.27];
 /// The pedals' middle, m.
@@ -31,9 +31,9 @@ const REAR_M: f64 = 6.35;
 /// The panel's lower and upper edge: station and waterline.
 const PANEL_M: [[f64; 2]; 2] = [[4.31, 1.20], [4.20, 1.655]];
 /// Half the side of a screen.
-const SCREEN_M: f64 = 0.155;
+const SCREEN_M: f64 = 0.172;
 /// Waterline of a screen's middle.
-const SCREEN_UP_M: f64 = 1.465;
+const SCREEN_UP_M: f64 = 1.472;
 
 /// A bar of one cross-section (station, waterline) from buttline to buttline.
 fn prism(mesh: &mut Mesh, material: usize, section: &[[f64; 2]], [left, right]: [f64; 2]) {
@@ -113,7 +113,7 @@ fn panel() -> Mesh {
     prism(
         &mut mesh,
         material::BLACK,
-        &[[4.37, 1.668], [4.37, 1.685], [4.25, 1.715], [3.90, 1.70], [3.90, 1.655]],
+        &[[4.28, 1.668], [4.28, 1.682], [4.22, 1.70], [3.90, 1.685], [3.90, 1.655]],
         [-0.60, 0.60],
     );
     // The pedestal between the seats.
@@ -298,8 +298,8 @@ fn warning_lamp() -> Mesh {
         let right = side * SEAT_M;
         mesh.cuboid(
             material::LIGHT_RED,
-            [4.368, right - 0.03, 1.670],
-            [4.374, right + 0.03, 1.684],
+            [4.280, right - 0.018, 1.669],
+            [4.284, right + 0.018, 1.680],
         );
     }
     mesh

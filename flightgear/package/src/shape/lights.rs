@@ -4,7 +4,7 @@ use engine::aircraft::Params as Aircraft;
 
 use super::{nacelle, ring};
 use crate::ac3d::{Part, material};
-use crate::mesh::{Mesh, Point, add};
+use crate::mesh::{Mesh, Point, add, sub};
 use crate::paint;
 
 /// A light with the halo that is seen around it.
@@ -43,6 +43,7 @@ pub const LANDING_M: Point = [4.75, 0.0, 0.56];
 
 /// Lamps, halos, and the landing light's beam.
 pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
+    let cg = aircraft.weight_balance.cg_m;
     let mut parts = Vec::new();
     for light in lights(aircraft) {
         let mut lamp = Mesh::default();
@@ -62,7 +63,7 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
             ],
         );
         parts.push(Part::new(light.name, lamp).smooth(80.0));
-        parts.push(halo(&light));
+        parts.push(halo(&light, [cg.x, cg.y, cg.z]));
     }
     let [aft, right, up] = LANDING_M;
     let lamp = ring(16, |s, c| [aft - 0.05 + 0.06 * c, right + 0.09 * s, up - 0.02 + 0.05 * c]);
@@ -73,23 +74,20 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     parts
 }
 
-/// A square that is turned to the eye.
-fn halo(light: &Light) -> Part {
-    let [aft, right, up] = light.at_m;
+/// A square that is turned to the eye, which FlightGear does about the model's origin: it is made there,
+/// and an animation puts it where the light is.
+fn halo(light: &Light, origin_m: Point) -> Part {
     let half = 9.0 * light.radius_m;
+    let corner = |y: f64, z: f64| add(origin_m, [0.0, y * half, z * half]);
     let mut mesh = Mesh::default();
     mesh.face(
         light.material,
-        &[
-            [aft, right - half, up - half],
-            [aft, right + half, up - half],
-            [aft, right + half, up + half],
-            [aft, right - half, up + half],
-        ],
+        &[corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
     );
-    let mesh = mesh
-        .two_sided()
-        .textured(|[_, y, z]| [0.5 + 0.5 * (y - right) / half, 0.5 + 0.5 * (z - up) / half]);
+    let mesh = mesh.two_sided().textured(|at| {
+        let [_, y, z] = sub(at, origin_m);
+        [y, z].map(|out| 0.5 + 0.5 * out / half)
+    });
     Part::new(format!("halo.{}", light.name), mesh).with_texture(paint::HALO)
 }
 

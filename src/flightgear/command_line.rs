@@ -1,0 +1,220 @@
+//! FlightGear's command line.
+
+use std::net::Ipv4Addr;
+use std::path::PathBuf;
+
+use engine::units::{degrees, knots};
+use flightgear::channel;
+use flightgear::package::Package;
+use flightgear::report::REPORT_PROTOCOL;
+
+use super::Scene;
+
+/// Read and sent as often as frames are drawn: FlightGear does so once a frame at most.
+const RATE_HZ: u32 = 250;
+/// Hilo, whose scenery comes with FlightGear.
+const HILO_DEG: (f64, f64) = (19.7214, -155.0485);
+/// Near enough to begin at the airport, deg.
+const AIRPORT_DEG: f64 = 0.1;
+
+/// Where packets go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ports {
+    /// Of FlightGear's own packets; the second channel is at the next one.
+    pub port: u16,
+    /// Where FlightGear listens.
+    pub listen: Ipv4Addr,
+    /// Where what FlightGear tells goes.
+    pub tell: (Ipv4Addr, u16),
+}
+
+/// A moment of universal time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Moment {
+    unix_s: u64,
+}
+
+impl Moment {
+    /// From nanoseconds since 1970, as logs have it.
+    pub fn of_unix_ns(text: &str) -> Option<Self> {
+        Some(Self { unix_s: text.parse::<u64>().ok()? / 1_000_000_000 })
+    }
+
+    /// `2020:06:21:21:00:00`.
+    fn date(self) -> String {
+        let (days, second) = (self.unix_s / 86_400, self.unix_s % 86_400);
+        // Years from March on, so that the leap day is the last of them.
+        let shifted = days + 719_468;
+        let (era, day_of_era) = (shifted / 146_097, shifted % 146_097);
+        let year_of_era =
+            (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+        let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+        let month_from_march = (5 * day_of_year + 2) / 153;
+        let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
+        let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
+        let year = year_of_era + era * 400 + u64::from(month <= 2);
+        let (hour, minute) = (second / 3600, second / 60 % 60);
+        format!("{year:04}:{month:02}:{day:02}:{hour:02}:{minute:02}:{:02}", second % 60)
+    }
+}
+
+/// A FlightGear to be started.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The program.
+    pub fgfs: PathBuf,
+    /// Our aircraft and protocols.
+    pub package: Package,
+    /// Where packets go.
+    pub ports: Ports,
+    /// What it shows first.
+    pub scene: Scene,
+    /// Whether scenery is downloaded.
+    pub terrasync: bool,
+    /// Arguments of the user's.
+    pub extra: Vec<String>,
+}
+
+impl Request {
+    /// The arguments, in an order that matters: what comes in is read before what goes out is written,
+    /// so that what FlightGear tells is of the picture it has just got.
+    pub fn arguments(&self) -> Vec<String> {
+        let Ports { port, listen, tell } = self.ports;
+        let mut arguments = vec![
+            format!("--fg-aircraft={}", self.package.aircraft.display()),
+            format!("--data={}", self.package.data.display()),
+            "--aircraft=xv15".into(),
+            "--fdm=null".into(),
+            format!("--native-fdm=socket,in,{RATE_HZ},{listen},{port},udp"),
+            format!(
+                "--generic=socket,in,{RATE_HZ},{listen},{},udp,{}",
+                port + 1,
+                channel::PROTOCOL
+            ),
+            format!("--generic=socket,out,{RATE_HZ},{},{},udp,{REPORT_PROTOCOL}", tell.0, tell.1),
+        ];
+        arguments.extend(self.place());
+        arguments.push(match self.scene.moment {
+            Some(moment) => format!("--start-date-gmt={}", moment.date()),
+            None => "--timeofday=noon".into(),
+        });
+        arguments
+            .push(if self.terrasync { "--enable-terrasync" } else { "--disable-terrasync" }.into());
+        // The weather is the flight's, and nobody else flies here.
+        arguments.extend(
+            [
+                "--disable-real-weather-fetch",
+                "--disable-ai-traffic",
+                "--disable-fgcom",
+                "--disable-hud",
+                "--disable-save-on-exit",
+                "--prop:bool:/sim/menubar/visibility=false",
+            ]
+            .map(String::from),
+        );
+        arguments.extend(self.extra.iter().cloned());
+        arguments
+    }
+
+    /// Where it begins, and the wind there.
+    fn place(&self) -> Vec<String> {
+        let Some(start) = &self.scene.start else {
+            return vec!["--airport=PHTO".into(), "--wind=0@0".into()];
+        };
+        let latitude_deg = degrees(start.origin.latitude_rad);
+        let longitude_deg = degrees(start.origin.longitude_rad);
+        let at_hilo = (latitude_deg - HILO_DEG.0).abs() < AIRPORT_DEG
+            && (longitude_deg - HILO_DEG.1).abs() < AIRPORT_DEG;
+        let mut place = if at_hilo {
+            vec!["--airport=PHTO".into()]
+        } else {
+            vec![
+                format!("--lat={latitude_deg:.6}"),
+                format!("--lon={longitude_deg:.6}"),
+                format!("--altitude={:.0}", start.origin.height_m / engine::units::FOOT_M),
+            ]
+        };
+        let from_deg = degrees(start.world.wind_from_rad).rem_euclid(360.0);
+        place.push(format!("--wind={from_deg:.0}@{:.0}", knots(start.world.wind_mps)));
+        place
+    }
+
+    /// As it is typed in a shell.
+    pub fn in_a_shell(&self) -> String {
+        let quoted = |text: &str| {
+            let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./,:@".contains(c);
+            if !text.is_empty() && text.chars().all(plain) {
+                text.to_string()
+            } else {
+                format!("'{}'", text.replace('\'', "'\\''"))
+            }
+        };
+        let mut words = vec![quoted(&self.fgfs.display().to_string())];
+        words.extend(self.arguments().iter().map(|argument| quoted(argument)));
+        words.join(" \\\n    ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn request() -> Request {
+        let scenario = aircraft::DEFAULT_SCENARIO;
+        let start = aircraft::start("default.toml", scenario).expect("our own file");
+        Request {
+            fgfs: "/usr/games/fgfs".into(),
+            package: Package::in_folder(Path::new("/a b/flightgear")),
+            ports: Ports {
+                port: 5501,
+                listen: Ipv4Addr::LOCALHOST,
+                tell: (Ipv4Addr::LOCALHOST, 5503),
+            },
+            scene: Scene { start: Some(start), moment: None },
+            terrasync: false,
+            extra: vec!["--geometry=640x480".into()],
+        }
+    }
+
+    #[test]
+    fn what_comes_in_is_read_before_what_goes_out_is_written() {
+        let arguments = request().arguments();
+        let place = |words: &str| {
+            arguments.iter().position(|argument| argument.contains(words)).expect("there")
+        };
+        assert!(place("--native-fdm=socket,in,250,127.0.0.1,5501") < place("socket,out"));
+        assert!(place("socket,in,250,127.0.0.1,5502,udp,tiltrotor") < place("socket,out"));
+        assert!(arguments.contains(&"--airport=PHTO".into()), "{arguments:?}");
+        assert!(arguments.contains(&"--wind=0@0".into()), "{arguments:?}");
+        assert_eq!(arguments.last().map(String::as_str), Some("--geometry=640x480"));
+    }
+
+    #[test]
+    fn elsewhere_it_begins_where_the_scenario_does_in_its_wind() {
+        let mut elsewhere = request();
+        let start = elsewhere.scene.start.as_mut().expect("there");
+        (start.origin.latitude_rad, start.origin.longitude_rad) = (0.785, 0.13);
+        (start.world.wind_mps, start.world.wind_from_rad) = (5.144, -1.570_8);
+        let arguments = elsewhere.arguments();
+        assert!(arguments.contains(&"--lat=44.977187".into()), "{arguments:?}");
+        assert!(arguments.contains(&"--wind=270@10".into()), "{arguments:?}");
+    }
+
+    #[test]
+    fn a_shell_understands_it() {
+        let words = request().in_a_shell();
+        assert!(words.contains("'--fg-aircraft=/a b/flightgear/Aircraft'"), "{words}");
+    }
+
+    #[test]
+    fn the_time_of_day_is_that_of_the_log() {
+        let date = |text: &str| Moment::of_unix_ns(text).map(Moment::date);
+        assert_eq!(date("0"), Some("1970:01:01:00:00:00".into()));
+        assert_eq!(date("1592773261000000000"), Some("2020:06:21:21:01:01".into()));
+        assert_eq!(date("1709164799999999999"), Some("2024:02:28:23:59:59".into()));
+        assert_eq!(date("1709164800000000000"), Some("2024:02:29:00:00:00".into()));
+        assert_eq!(date("yesterday"), None);
+    }
+}

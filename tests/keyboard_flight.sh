@@ -1,0 +1,95 @@
+#!/bin/sh
+# A flight by keyboard alone, in a terminal of tmux: take-off, hover, landing. The script is the pilot: it
+# reads height and climb off the panel and presses keys. The log is verified; the picture of the panel in
+# the hover is put where `PICTURE` says.
+#
+#   PICTURE=docs/panel.txt tests/keyboard_flight.sh
+#
+# TILTROTOR names the program; without it, the release build is taken.
+set -eu
+cd "$(dirname "$0")/.."
+program=$(realpath "${TILTROTOR:-target/release/tiltrotor}")
+folder=$(mktemp -d)
+tmux="tmux -L tiltrotor-$$"
+trap '$tmux kill-server 2>/dev/null || true; rm -rf "$folder"' EXIT
+
+$tmux new-session -d -s flight -x 100 -y 32 \
+    "cd $folder && $program fly --keyboard --no-flightgear --out flight.mcap >said; echo \$? >status"
+
+key() { $tmux send-keys -t flight "$@"; }
+picture() { $tmux capture-pane -p -t flight; }
+# Height, climb, forward speed, pitch and roll as the panel shows them.
+read_panel() {
+    shown=$(picture)
+    roll=$(printf '%s\n' "$shown" | sed -n 's/.*roll *+*\(-\{0,1\}[0-9]*\)° pitch.*/\1/p')
+    pitch=$(printf '%s\n' "$shown" | sed -n 's/.*pitch *+*\(-\{0,1\}[0-9]*\)°.*/\1/p')
+    height=$(printf '%s\n' "$shown" | sed -n 's/^ height *\(-\{0,1\}[0-9]*\) ft.*/\1/p')
+    forward=$(printf '%s\n' "$shown" | sed -n 's/^ drift kt *fwd +*\(-\{0,1\}[0-9]*\) .*/\1/p')
+    climb=$(printf '%s\n' "$shown" | sed -n 's/^ climb *\(-\{0,1\}[0-9]*\) ft.*/\1/p')
+}
+# One look, and at most a press for each control: the climb is to be $1 ft/min, the aircraft level.
+steer() {
+    read_panel
+    # A degree is the pitch of a hover: more slows it down.
+    level=$((1 + forward / 2))
+    [ $level -le 4 ] || level=4
+    [ $level -ge -4 ] || level=-4
+    if [ "$pitch" -gt $((level + 1)) ]; then key Up; elif [ "$pitch" -lt $((level - 1)) ]; then key Down; fi
+    if [ "$roll" -gt 2 ]; then key Left; elif [ "$roll" -lt -2 ]; then key Right; fi
+    if [ "$climb" -lt $(($1 - 40)) ]; then key +; fi
+    if [ "$climb" -gt $(($1 + 40)) ]; then key -; fi
+    sleep 0.4
+}
+
+tries=0
+until picture | grep -q ' height '; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || { echo "no panel:"; picture; exit 1; }
+    sleep 0.2
+done
+
+key k # the parking brake, off
+for _ in $(seq 9); do key w; sleep 0.05; done # where the stick is in a hover
+for _ in $(seq 32); do key PageUp; sleep 0.05; done
+on_ground=7
+looks=0
+while read_panel; [ "$height" -lt 20 ]; do
+    looks=$((looks + 1))
+    [ $looks -lt 400 ] || { echo "it does not lift off:"; picture; exit 1; }
+    if [ "$height" -le $((on_ground + 1)) ]; then key +; sleep 0.15; else steer 150; fi
+done
+key m # in the air
+for _ in $(seq "${HOVER_LOOKS:-80}"); do
+    read_panel
+    want=$(((40 - height) * 6))
+    [ $want -le 150 ] || want=150
+    [ $want -ge -150 ] || want=-150
+    steer $want
+done
+picture >"$folder/picture"
+[ "$height" -ge 25 ] && [ "$height" -le 55 ] || { echo "no hover at 40 ft:"; picture; exit 1; }
+looks=0
+while read_panel; [ "$height" -gt $((on_ground + 1)) ]; do
+    looks=$((looks + 1))
+    [ $looks -lt 400 ] || { echo "it does not come down:"; picture; exit 1; }
+    steer -130
+done
+for _ in $(seq 50); do key PageDown; sleep 0.03; done
+key k # the parking brake, set
+sleep 3
+key Q
+tries=0
+until [ -s "$folder/status" ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || { echo "it does not end:"; picture; exit 1; }
+    sleep 0.2
+done
+cat "$folder/said"
+[ "$(cat "$folder/status")" = 0 ]
+grep -q '^debrief    touchdown' "$folder/said"
+if grep -qE "HARD|hull" "$folder/said"; then echo "that was no landing"; exit 1; fi
+"$program" verify "$folder/flight.mcap"
+"$program" log summary "$folder/flight.mcap"
+if [ -n "${PICTURE:-}" ]; then cp "$folder/picture" "$PICTURE"; fi
+if [ -n "${LOG:-}" ]; then cp "$folder/flight.mcap" "$LOG"; fi
+echo "flown by keyboard: took off, hovered, landed; verified exact"
