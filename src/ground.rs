@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, bail};
 use engine::start::Start;
 use engine::{Aircraft, observe};
-use flightgear::{Lamps, Link, Picture, Receiver, Scene};
+use flightgear::{Hold, Lamps, Link, Picture, Receiver, Scene};
 use recorder::{Progress, ground};
 
 /// Whose ground the wheels stand on.
@@ -58,7 +58,7 @@ pub fn found(
     }
     let stop = Progress::default();
     stop.stop_on_signals()?;
-    let hold = link.hold(picture);
+    let hold = Hold::start(link, picture);
     let began = Instant::now();
     let (mut last, mut agreed, mut told) = ((0, f64::NAN), 0, false);
     let ground_m = loop {
