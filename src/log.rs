@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use engine::STEP_S;
+use logs::devices::DeviceIdentity;
 use logs::evolution::Difference;
 use logs::output::Output;
 use logs::text::{at, size};
@@ -188,11 +189,26 @@ fn say_beside_the_flight(reader: &FlightReader) {
     for device in &reader.devices {
         let name = format!("device {}", device.device);
         let mapped = if device.mapped == 0 { " (not in the cockpit map)" } else { "" };
-        say!("  {name:<16} {}{mapped}", device.name);
+        say!("  {name:<16} {}{mapped}", identity(device));
     }
     for remark in &reader.remarks {
         say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
     }
+}
+
+/// Name, bus:vendor:product:version as far as they are known, port and serial number of a device.
+fn identity(device: &DeviceIdentity) -> String {
+    let DeviceIdentity { bus, vendor, product, version, .. } = device;
+    let mut words = device.name.clone();
+    if [bus, vendor, product, version].into_iter().any(|&number| number != 0) {
+        words.push_str(&format!(", {bus:04x}:{vendor:04x}:{product:04x}:{version:04x}"));
+    }
+    for (what, text) in [("port", &device.port), ("serial number", &device.uniq)] {
+        if !text.is_empty() {
+            words.push_str(&format!(", {what} {text}"));
+        }
+    }
+    words
 }
 
 fn ending(disorder: Option<LogError>, reader: &FlightReader) -> String {

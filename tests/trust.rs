@@ -394,6 +394,23 @@ fn a_channel_of_somebody_else_s_is_compacted_and_comes_back() {
 }
 
 #[test]
+fn the_tables_of_a_compacted_log_are_those_of_the_log_that_it_was() {
+    let place = folder("trust-tables");
+    let compact = place.join("compact.mcap");
+    make("compact", flight(), &compact).ends(OK);
+    let tables = |log: &Path, name: &str| {
+        let tables = place.join(name);
+        tiltrotor(&["log", "export", text(log), "--csv", text(&tables)]).ends(OK);
+        ["state", "outputs", "hardware", "inputs", "timing", "events", "log"].map(|table| {
+            let part = fs::read_dir(tables.join(table)).expect("a table").next();
+            let file = part.expect("a flight").expect("an entry").path().join("data.csv");
+            fs::read_to_string(file).expect("a table")
+        })
+    };
+    assert!(tables(&compact, "compact") == tables(flight(), "whole"));
+}
+
+#[test]
 fn a_difference_in_a_compacted_log_lies_between_two_states_that_were_kept() {
     let place = folder("trust-between");
     let compact = place.join("compact.mcap");

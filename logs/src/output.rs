@@ -70,7 +70,10 @@ impl Output {
     pub fn flight(path: &Path, force: bool) -> Result<Self, LogError> {
         refuse(path, force, &[])?;
         let old = hold(path, &followed(path))?;
-        Self::begin(path, |hidden| Stage::Claimed { hidden, old })
+        let output = Self::begin(path, |hidden| Stage::Claimed { hidden, old })?;
+        // Where files cannot be locked, a flight flies all the same.
+        let _ = output.file.try_lock();
+        Ok(output)
     }
 
     fn begin(path: &Path, stage: impl FnOnce(PathBuf) -> Stage) -> Result<Self, LogError> {

@@ -84,8 +84,8 @@ pub struct Progress {
     log_failed: AtomicBool,
     slips: AtomicU64,
     slipped_ns: AtomicU64,
-    /// Devices that are unplugged, a bit each.
-    unplugged: AtomicU64,
+    /// Devices that are plugged in, a bit each by their numbers.
+    plugged: AtomicU64,
     /// Controls that wait for pick-up and are to go up to it, and down, a bit each by their places.
     waiting_up: AtomicU64,
     waiting_down: AtomicU64,
@@ -122,8 +122,8 @@ pub struct Snapshot {
     pub slipped_s: f64,
     /// Seconds of flight that were not the same when reflown in flight.
     pub mismatches: u64,
-    /// Devices of the map that were there and are not, a bit each by their numbers.
-    pub unplugged: u64,
+    /// Devices of the map that are plugged in, a bit each by their numbers.
+    pub plugged: u64,
     /// Controls that wait for pick-up, a bit each by their places: the hardware has to come up to them.
     pub waiting_up: u64,
     /// The same, down.
@@ -168,7 +168,7 @@ impl Progress {
             slips: self.slips.load(Ordering::Relaxed),
             slipped_s: self.slipped_ns.load(Ordering::Relaxed) as f64 * 1e-9,
             mismatches: self.mismatches.load(Ordering::Relaxed),
-            unplugged: self.unplugged.load(Ordering::Relaxed),
+            plugged: self.plugged.load(Ordering::Relaxed),
             waiting_up: self.waiting_up.load(Ordering::Relaxed),
             waiting_down: self.waiting_down.load(Ordering::Relaxed),
         }
@@ -208,8 +208,8 @@ impl Progress {
         for event in events.iter().filter(|event| event.device < 64) {
             let bit = 1 << event.device;
             match EventKind::from_u64(event.kind) {
-                Some(EventKind::Disconnected) => self.unplugged.fetch_or(bit, Ordering::Relaxed),
-                Some(EventKind::Connected) => self.unplugged.fetch_and(!bit, Ordering::Relaxed),
+                Some(EventKind::Connected) => self.plugged.fetch_or(bit, Ordering::Relaxed),
+                Some(EventKind::Disconnected) => self.plugged.fetch_and(!bit, Ordering::Relaxed),
                 _ => continue,
             };
         }

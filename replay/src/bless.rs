@@ -166,8 +166,7 @@ fn fly(
     let mut seen = Seen::new(&names, &reader.initial);
     seen.compare(&reader.initial, &initial)?;
     let models = (reader.identity.get(Identity::MODEL).to_string(), engine::MODEL_VERSION);
-    let mut altered = None;
-    let mut failure = None;
+    let (mut altered, mut failure) = (None, None);
     let mut gathered = Gathered::from(&initial);
     let rewritten = rewrite(&mut reader, &initial, &new, |tick, state, outputs, reader| {
         if let Some(restart) = &tick.restart {

@@ -198,9 +198,14 @@ impl Reflight {
             let Self { state, outputs, reader, .. } = &*self;
             return Ok(Some(Reflown { recorded: &reader.tick, state, outputs, exact: true }));
         }
-        self.fly();
+        let read = self.fly();
         self.message.clear();
-        cdr::append(&mut self.message, &self.state)?;
+        if read {
+            // Its message was made of this very state.
+            self.message.extend_from_slice(&self.reader.tick.state_message);
+        } else {
+            cdr::append(&mut self.message, &self.state)?;
+        }
         self.reader.fill(&self.state)?;
         let recorded = &self.reader.tick;
         let mut exact = self.message == recorded.state_message;
@@ -221,8 +226,8 @@ impl Reflight {
         Ok(Some(Reflown { recorded, state, outputs, exact }))
     }
 
-    /// Flies the tick that was read.
-    fn fly(&mut self) {
+    /// Flies the tick that was read; `true` when reading had flown it and nothing was recorded of it.
+    fn fly(&mut self) -> bool {
         let tick = &self.reader.tick;
         let inputs = Inputs { events: &tick.events, world: tick.inputs.world };
         let seen = self.state.tick.wrapping_add(1).is_multiple_of(self.outputs_ticks);
@@ -233,6 +238,7 @@ impl Reflight {
             if seen {
                 self.outputs = *outputs;
             }
+            return !self.reader.is_recorded();
         } else {
             self.state = tick.begins_with(&self.state);
             if seen {
@@ -241,6 +247,7 @@ impl Reflight {
                 step_state(&self.aircraft, &mut self.state, &inputs);
             }
         }
+        false
     }
 
     fn check_outputs(&mut self) -> Result<(), LogError> {

@@ -188,6 +188,7 @@ struct Reading<'a> {
     done: Receiver<Done>,
     /// Flown before their turn.
     early: BTreeMap<u64, Box<Stretch>>,
+    #[expect(clippy::vec_box, reason = "they go from thread to thread as they are")]
     free: Vec<Box<Stretch>>,
     /// Stretches so far, and the one whose turn it is.
     handed_out: u64,

@@ -83,8 +83,10 @@ pub fn verify(
             }
         }
     }
-    if options.threads > 0 {
+    if options.threads > 0 && flight.reader.is_compacted() {
         flight.reader.fly_states_only(options.threads - 1);
+        // What is compared is bytes; of a difference, too.
+        flight.reader.states_as_bytes = true;
     }
     one_pass(flight, options, progress)
 }

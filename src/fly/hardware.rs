@@ -25,10 +25,10 @@ impl Named {
     pub fn lines(&self, told: &Snapshot, now: &Snapshot) -> Vec<String> {
         let mut lines = Vec::new();
         for (number, name) in self.0.iter().enumerate().take(64) {
-            let [was, is] = [told, now].map(|seen| seen.unplugged >> number & 1 != 0);
-            if is && !was {
+            let [was, is] = [told, now].map(|seen| seen.plugged >> number & 1 != 0);
+            if was && !is {
                 lines.push(format!("WARNING: device {number}, {name}, is unplugged"));
-            } else if was && !is {
+            } else if is && !was && told.tick > 0 {
                 lines.push(format!("device {number}, {name}, is plugged in"));
             }
         }

@@ -9,6 +9,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::same::is_same;
 
+/// Whether a lock only says something to who asks for it. Where it keeps others from reading, as on Windows,
+/// nothing hidden is locked, and nothing that was left is removed.
+const LOCKS_ADVISE: bool = cfg!(unix);
+
 const PREFIX: &str = ".tiltrotor-";
 const SUFFIX: &str = ".unfinished";
 /// In a hidden folder, the file that is locked; no table is called so.
@@ -55,12 +59,17 @@ fn new_name() -> String {
 /// Locks a new file, and says whether it is still there: another program may have taken it for a
 /// leftover before it was locked. Where files cannot be locked, nobody takes any away.
 fn is_mine(path: &Path, file: &File) -> bool {
-    file.try_lock().is_err() || file.metadata().is_ok_and(|there| is_same(&there, path, path))
+    !LOCKS_ADVISE
+        || file.try_lock().is_err()
+        || file.metadata().is_ok_and(|there| is_same(&there, path, path))
 }
 
 /// Removes what killed programs left in a folder, the first time that something is written there.
 fn sweep_once(folder: &Path) {
     static SWEPT: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+    if !LOCKS_ADVISE {
+        return;
+    }
     let mut swept = SWEPT.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     if !swept.iter().any(|known| known == folder) {
         swept.push(folder.into());

@@ -1,6 +1,6 @@
 //! Whether two names are one file.
 
-use std::fs::{self, Metadata};
+use std::fs::Metadata;
 use std::path::{Path, PathBuf};
 
 /// The file behind links; a link to nothing is itself.
@@ -13,7 +13,7 @@ pub(super) fn followed(path: &Path) -> PathBuf {
 pub(super) fn is_same(one: &Metadata, _: &Path, other: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let id = |file: &Metadata| (file.dev(), file.ino());
-    fs::metadata(other).is_ok_and(|other| id(&other) == id(one))
+    std::fs::metadata(other).is_ok_and(|other| id(&other) == id(one))
 }
 
 /// Whether both are one file, as far as names tell.

@@ -1,7 +1,9 @@
 # Primary flight display, on the panel and over the picture.
 #
 # Every value comes from the channel below tiltrotor/; FlightGear's own instruments know nothing of
-# this flight. A thing is drawn again only when what it shows has changed.
+# this flight. A thing is changed only when what it shows has changed. What costs is the number of
+# things that are drawn: so all that never changes in itself (frames, scales, the rose, the ladder) is
+# drawn once, each to a sheet of its own, and is a single picture afterwards that moves as a whole.
 
 var VIEW = 1000;
 var PIXELS = 512;
@@ -61,16 +63,31 @@ var box = func(group, x, y, w, h, color)
 var clip = func(group, x, y, w, h)
     group.set("clip", sprintf("rect(%d, %d, %d, %d)", y, x + w, y + h, x));
 
+# A sheet to draw on once, w by h of the display's units, `scale` pixels a unit. Where nothing is drawn it
+# is transparent, and white, so that white edges stay bright.
+var sheets = [];
+var sheet = func(name, w, h, scale, background = nil) {
+    var made = canvas.new({ name: "XV-15 PFD " ~ name, size: [int(w * scale), int(h * scale)], view: [w, h], mipmapping: 0 });
+    made.setColorBackground(background or [1, 1, 1, 0]);
+    append(sheets, made);
+    return made;
+};
+# A sheet as a picture in a group, its upper left at a place.
+var picture = func(group, made, x, y) {
+    var view = [made.get("view[0]"), made.get("view[1]")];
+    return group.createChild("image").setFile(made.getPath()).setSize(view[0], view[1]).setTranslation(x, y);
+};
+
 # ---------------------------------------------------------------- horizon
 
 var PITCH_PX = 9;
 var HORIZON = [430, 375];
 
 var Horizon = {
-    new: func(root) {
+    new: func(on) {
         var m = { parents: [Horizon], roll: node("attitude/roll-deg"), pitch: node("attitude/pitch-deg"),
             slip: node("air/sideslip-deg") };
-        var field = root.createChild("group");
+        var field = on.moving.createChild("group");
         clip(field, 162, 122, 536, 506);
         var turning = field.createChild("group").setCenter(HORIZON[0], HORIZON[1]);
         var ladder = turning.createChild("group");
@@ -78,21 +95,25 @@ var Horizon = {
         box(ladder, x - 600, y - 1600, 1200, 1600, SKY);
         box(ladder, x - 600, y, 1200, 1600, GROUND);
         line(ladder, [[x - 600, y], [x + 600, y]], WHITE, 5);
+        var rungs = sheet("ladder", 260, 1500, 0.6);
         var marks = [];
+        var drawn = rungs.createGroup();
         for (var deg = -80; deg <= 80; deg += 5) {
             if (deg == 0) continue;
             var half = math.fmod(deg, 10) == 0 ? 75 : 35;
-            append(marks, [x - half, y - deg * PITCH_PX], [x + half, y - deg * PITCH_PX], nil);
+            var up = 750 - deg * PITCH_PX;
+            append(marks, [130 - half, up], [130 + half, up], nil);
             if (math.fmod(deg, 10) != 0) continue;
             var label = sprintf("%d", math.abs(deg));
-            text(ladder, label, x - 84, y - deg * PITCH_PX, 26, WHITE, "right-center");
-            text(ladder, label, x + 84, y - deg * PITCH_PX, 26, WHITE, "left-center");
+            text(drawn, label, 130 - 84, up, 26, WHITE, "right-center");
+            text(drawn, label, 130 + 84, up, 26, WHITE, "left-center");
         }
-        line(ladder, marks, WHITE, 4);
+        line(drawn, marks, WHITE, 4);
+        picture(ladder, rungs, x - 130, y - 750);
         # The pointer of bank, and below it the ball.
         var pointer = field.createChild("group").setCenter(x, y);
         area(pointer, [[x, 165], [x - 15, 190], [x + 15, 190]], WHITE);
-        line(field, [[x - 22, 600], [x - 22, 624], nil, [x + 22, 600], [x + 22, 624]], WHITE, 3);
+        line(on.above, [[x - 22, 600], [x - 22, 624], nil, [x + 22, 600], [x + 22, 624]], WHITE, 3);
         var ball = field.createChild("path").setColorFill(WHITE).moveTo(x - 13, 612)
             .arcSmallCW(13, 13, 0, 26, 0).arcSmallCW(13, 13, 0, -26, 0);
         m.setRoll = memo(func(deg) {
@@ -116,36 +137,37 @@ var Horizon = {
 var KT_PX = 3.4;
 
 var Airspeed = {
-    new: func(root) {
+    new: func(on) {
         var m = { parents: [Airspeed], cas: node("air/cas-kt"), gs: node("air/groundspeed-kt"),
             low: node("corridor/speed-min-kt"), high: node("corridor/speed-max-kt"),
             excursion: node("corridor/excursion") };
-        var field = root.createChild("group");
+        var field = on.moving.createChild("group");
         clip(field, 14, 122, 134, 506);
         var tape = field.createChild("group");
+        var scale = sheet("airspeed", 124, 1400, 0.6);
+        var drawn = scale.createGroup();
         var marks = [];
         for (var kt = -40; kt <= 360; kt += 10) {
-            var y = 375 - kt * KT_PX;
-            append(marks, [116, y], [math.fmod(kt, 20) == 0 ? 134 : 126, y], nil);
-            if (math.fmod(kt, 20) == 0) text(tape, sprintf("%d", kt), 106, y, 27, WHITE, "right-center");
+            var y = 1240 - kt * KT_PX;
+            append(marks, [104, y], [math.fmod(kt, 20) == 0 ? 122 : 114, y], nil);
+            if (math.fmod(kt, 20) == 0) text(drawn, sprintf("%d", kt), 94, y, 27, WHITE, "right-center");
         }
-        line(tape, marks, WHITE, 3);
+        line(drawn, marks, WHITE, 3);
+        picture(tape, scale, 12, 375 - 1240);
         # Beyond the corridor the tape's edge is red.
         var slow = box(tape, 137, 0, 11, 1400, RED);
         var fast = box(tape, 137, -1400, 11, 1400, RED);
         m.setTape = memo(func(kt) tape.setTranslation(0, kt * KT_PX));
         m.setLow = memo(func(kt) slow.setVisible(kt > 0).setTranslation(0, 375 - kt * KT_PX));
         m.setHigh = memo(func(kt) fast.setTranslation(0, 375 - kt * KT_PX));
-        area(root, [[14, 345], [112, 345], [134, 375], [112, 405], [14, 405]], DARK);
-        var frame = line(root, [[14, 345], [112, 345], [134, 375], [112, 405], [14, 405], [14, 345]], WHITE, 3);
-        var digits = text(root, "0", 104, 376, 42, WHITE, "right-center");
+        # The box of the digits hides what of the tape is below it.
+        area(on.above, [[14, 345], [112, 345], [134, 375], [112, 405], [14, 405]], DARK);
+        line(on.above, [[14, 345], [112, 345], [134, 375], [112, 405], [14, 405], [14, 345]], WHITE, 3);
+        var digits = text(on.top, "0", 104, 376, 42, WHITE, "right-center");
         m.setDigits = memo(func(kt) digits.setText(sprintf("%d", kt)));
-        m.setColor = memo(func(outside) {
-            digits.setColor(outside ? RED : WHITE);
-            frame.setColor(outside ? RED : WHITE);
-        });
-        text(root, "CAS kt", 81, 100, 24, GREY, "center-center");
-        var ground = text(root, "GS 0", 81, 648, 25, CYAN, "center-center");
+        m.setColor = memo(func(outside) digits.setColor(outside ? RED : WHITE));
+        text(on.below, "CAS kt", 81, 100, 24, GREY, "center-center");
+        var ground = text(on.top, "GS 0", 81, 648, 25, CYAN, "center-center");
         m.setGround = memo(func(kt) ground.setText(sprintf("GS %d", kt)));
         return m;
     },
@@ -165,10 +187,10 @@ var Airspeed = {
 var FT_PX = 0.44;
 
 var Height = {
-    new: func(root) {
+    new: func(on) {
         var m = { parents: [Height], altitude: node("air/altitude-ft"), radar: node("air/radar-altitude-ft"),
             climb: node("air/vertical-speed-fpm"), labels: [] };
-        var field = root.createChild("group");
+        var field = on.moving.createChild("group");
         clip(field, 712, 122, 154, 506);
         var tape = field.createChild("group");
         var marks = [];
@@ -183,32 +205,32 @@ var Height = {
             for (var i = 0; i < size(m.labels); i += 1)
                 m.labels[i].setText(sprintf("%d", base + (i - 7) * 100));
         });
-        area(root, [[866, 345], [750, 345], [728, 375], [750, 405], [866, 405]], DARK);
-        line(root, [[866, 345], [750, 345], [728, 375], [750, 405], [866, 405], [866, 345]], WHITE, 3);
-        var digits = text(root, "0", 858, 376, 36, WHITE, "right-center");
+        area(on.above, [[866, 345], [750, 345], [728, 375], [750, 405], [866, 405]], DARK);
+        line(on.above, [[866, 345], [750, 345], [728, 375], [750, 405], [866, 405], [866, 345]], WHITE, 3);
+        var digits = text(on.top, "0", 858, 376, 36, WHITE, "right-center");
         m.setDigits = memo(func(ft) digits.setText(sprintf("%d", ft)));
-        text(root, "ALT ft", 789, 100, 24, GREY, "center-center");
+        text(on.below, "ALT ft", 789, 100, 24, GREY, "center-center");
         # Radar height, in the horizon's corner.
-        box(root, 556, 576, 142, 52, DARK);
-        var radar = text(root, "", 690, 603, 36, GREEN, "right-center");
-        text(root, "RA", 564, 603, 22, GREY, "left-center");
+        box(on.above, 556, 576, 142, 52, DARK);
+        var radar = text(on.top, "", 690, 603, 36, GREEN, "right-center");
+        text(on.above, "RA", 564, 603, 22, GREY, "left-center");
         m.setRadar = memo(func(ft) {
             radar.setText(ft > 2500 ? "----" : sprintf("%d", ft));
             radar.setColor(ft < 50 ? AMBER : GREEN);
         });
         # Climb: the scale is finer around level flight.
-        text(root, "VS fpm", 933, 100, 24, GREY, "center-center");
+        text(on.below, "VS fpm", 933, 100, 24, GREY, "center-center");
         var marks = [];
         foreach (var fpm; [-3000, -2000, -1000, -500, 0, 500, 1000, 2000, 3000]) {
             var y = Height.climbY(fpm);
             append(marks, [884, y], [900, y], nil);
-            if (fpm != 0) text(root, sprintf("%g", math.abs(fpm) / 1000), 908, y, 23, WHITE, "left-center");
+            if (fpm != 0) text(on.below, sprintf("%g", math.abs(fpm) / 1000), 908, y, 23, WHITE, "left-center");
         }
-        line(root, marks, WHITE, 3);
-        var bar = area(root, [[880, -8], [968, -8], [986, 0], [968, 8], [880, 8]], CYAN);
+        line(on.below, marks, WHITE, 3);
+        var bar = area(on.moving, [[880, -8], [968, -8], [986, 0], [968, 8], [880, 8]], CYAN);
         m.setClimb = memo(func(y) bar.setTranslation(0, y));
-        box(root, 880, 586, 106, 42, DARK);
-        var rate = text(root, "0", 982, 608, 29, WHITE, "right-center");
+        box(on.above, 880, 586, 106, 42, DARK);
+        var rate = text(on.top, "0", 982, 608, 29, WHITE, "right-center");
         m.setRate = memo(func(fpm) {
             rate.setText(sprintf("%+d", fpm));
             rate.setColor(fpm < -800 ? AMBER : WHITE);
@@ -237,12 +259,14 @@ var Height = {
 # ---------------------------------------------------------------- compass
 
 var Compass = {
-    new: func(root) {
+    new: func(on) {
         var m = { parents: [Compass], heading: node("attitude/heading-deg"), turn: node("attitude/turn-rate-degps") };
         var (x, y, r) = (430, 838, 142);
-        var ring = root.createChild("path").setColorFill(DARK).moveTo(x - r, y).arcSmallCW(r, r, 0, 2 * r, 0)
+        on.below.createChild("path").setColorFill(DARK).moveTo(x - r, y).arcSmallCW(r, r, 0, 2 * r, 0)
             .arcSmallCW(r, r, 0, -2 * r, 0).setColor(GREY).setStrokeLineWidth(3);
-        var rose = root.createChild("group").setCenter(x, y);
+        var rose = on.moving.createChild("group").setCenter(x, y);
+        var face = sheet("rose", 2 * r + 4, 2 * r + 4, 1);
+        var drawn = face.createGroup().setTranslation(r + 2 - x, r + 2 - y);
         var marks = [];
         for (var deg = 0; deg < 360; deg += 10) {
             var (s, c) = (math.sin(deg * D2R), -math.cos(deg * D2R));
@@ -252,20 +276,21 @@ var Compass = {
             var name = { "0": "N", "90": "E", "180": "S", "270": "W" };
             var key = sprintf("%d", deg);
             var label = contains(name, key) ? name[key] : sprintf("%d", deg / 10);
-            text(rose, label, x + (r - 37) * s, y + (r - 37) * c, 27,
+            text(drawn, label, x + (r - 37) * s, y + (r - 37) * c, 27,
                 contains(name, key) ? AMBER : WHITE, "center-center").setRotation(deg * D2R);
         }
-        line(rose, marks, WHITE, 3);
+        line(drawn, marks, WHITE, 3);
+        picture(rose, face, x - r - 2, y - r - 2);
         # The aircraft from above.
-        line(root, [[x, y - 34], [x, y + 30], nil, [x - 30, y - 6], [x + 30, y - 6], nil,
+        line(on.above, [[x, y - 34], [x, y + 30], nil, [x - 30, y - 6], [x + 30, y - 6], nil,
             [x - 14, y + 26], [x + 14, y + 26]], AMBER, 6);
         m.setHeading = memo(func(deg) rose.setRotation(-deg * D2R));
-        box(root, 388, 634, 84, 40, DARK);
-        line(root, [[388, 634], [472, 634], [472, 674], [388, 674], [388, 634]], WHITE, 2);
-        var digits = text(root, "000", 430, 655, 33, WHITE, "center-center");
+        box(on.above, 388, 634, 84, 40, DARK);
+        line(on.above, [[388, 634], [472, 634], [472, 674], [388, 674], [388, 634]], WHITE, 2);
+        var digits = text(on.top, "000", 430, 655, 33, WHITE, "center-center");
         m.setDigits = memo(func(deg) digits.setText(sprintf("%03d", deg)));
         # Turn: where the heading will be after six seconds.
-        var trend = root.createChild("group").setCenter(x, y);
+        var trend = on.moving.createChild("group").setCenter(x, y);
         area(trend, [[x, y - r], [x - 9, y - r - 14], [x + 9, y - r - 14]], MAGENTA);
         m.setTurn = memo(func(deg) trend.setRotation(deg * D2R));
         return m;
@@ -282,10 +307,10 @@ var Compass = {
 # ---------------------------------------------------------------- conversion corridor
 
 var Corridor = {
-    new: func(root) {
+    new: func(on) {
         var m = { parents: [Corridor], cas: node("air/cas-kt"), nacelle: node("nacelle-deg"),
             excursion: node("corridor/excursion") };
-        text(root, "CORRIDOR", 142, 684, 22, GREY, "center-center");
+        text(on.below, "CORRIDOR", 142, 684, 22, GREY, "center-center");
         var limit = func(points) {
             var line_points = [];
             foreach (var p; points) append(line_points, Corridor.place(p[1], p[0]));
@@ -298,21 +323,21 @@ var Corridor = {
         var back = [];
         for (var i = size(fast) - 1; i >= 0; i -= 1) append(back, fast[i]);
         outline = outline ~ back ~ [[fast[0][0], Corridor.place(0, 95)[1]]];
-        area(root, outline, [0.10, 0.27, 0.16]);
-        line(root, slow, GREEN, 4);
-        line(root, fast, GREEN, 4);
-        line(root, [Corridor.place(0, 95), Corridor.place(0, 0), Corridor.place(250, 0)], GREY, 3);
+        area(on.below, outline, [0.10, 0.27, 0.16]);
+        line(on.below, slow, GREEN, 4);
+        line(on.below, fast, GREEN, 4);
+        line(on.below, [Corridor.place(0, 95), Corridor.place(0, 0), Corridor.place(250, 0)], GREY, 3);
         foreach (var kt; [0, 100, 200]) {
             var at = Corridor.place(kt, 0);
-            line(root, [at, [at[0], at[1] + 8]], GREY, 3);
-            text(root, sprintf("%d", kt), at[0], at[1] + 20, 20, GREY, "center-center");
+            line(on.below, [at, [at[0], at[1] + 8]], GREY, 3);
+            text(on.below, sprintf("%d", kt), at[0], at[1] + 20, 20, GREY, "center-center");
         }
         foreach (var deg; [0, 30, 60, 90]) {
             var at = Corridor.place(0, deg);
-            line(root, [at, [at[0] - 7, at[1]]], GREY, 3);
-            text(root, sprintf("%d", deg), at[0] - 10, at[1], 20, GREY, "right-center");
+            line(on.below, [at, [at[0] - 7, at[1]]], GREY, 3);
+            text(on.below, sprintf("%d", deg), at[0] - 10, at[1], 20, GREY, "right-center");
         }
-        var point = root.createChild("group");
+        var point = on.moving.createChild("group");
         var dot = point.createChild("path").setColor([0, 0, 0]).setStrokeLineWidth(2).moveTo(-10, 0)
             .arcSmallCW(10, 10, 0, 20, 0).arcSmallCW(10, 10, 0, -20, 0);
         m.setPoint = func(x, y) {
@@ -340,15 +365,15 @@ var BAR_PX = 1.72;
 
 # An upright bar of per cent with its number below.
 var Bar = {
-    new: func(root, name, x, limit, color_of) {
+    new: func(on, name, x, limit, color_of) {
         var m = { parents: [Bar], color_of: color_of };
-        box(root, x, BAR_Y - 125 * BAR_PX, 34, 125 * BAR_PX, [0.16, 0.18, 0.20]);
-        var bar = root.createChild("group");
+        box(on.below, x, BAR_Y - 125 * BAR_PX, 34, 125 * BAR_PX, [0.16, 0.18, 0.20]);
+        var bar = on.moving.createChild("group");
         var level = box(bar, 0, 0, 34, 1, GREEN);
         bar.setTranslation(x, BAR_Y);
-        line(root, [[x - 5, BAR_Y - limit * BAR_PX], [x + 39, BAR_Y - limit * BAR_PX]], RED, 4);
-        text(root, name, x + 17, 670, 22, GREY, "center-center");
-        var digits = text(root, "0", x + 17, 928, 27, WHITE, "center-center");
+        line(on.above, [[x - 5, BAR_Y - limit * BAR_PX], [x + 39, BAR_Y - limit * BAR_PX]], RED, 4);
+        text(on.below, name, x + 17, 670, 22, GREY, "center-center");
+        var digits = text(on.top, "0", x + 17, 928, 27, WHITE, "center-center");
         m.setLevel = memo(func(px) level.setScale(1, -px));
         m.setDigits = memo(func(x) digits.setText(sprintf("%d", x)));
         m.setColor = memo(func(i) {
@@ -365,63 +390,63 @@ var Bar = {
 };
 
 var Systems = {
-    new: func(root) {
+    new: func(on) {
         var m = { parents: [Systems], rpm: node("rotor/rpm"), torque: [node("rotor[0]/torque-percent"),
             node("rotor[1]/torque-percent")], command: node("rpm-command"), slow: node("lamp/low-rotor-rpm"),
             nacelle: node("nacelle-deg"), flap: node("surface/flap-deg"), detent: node("flap-detent"),
             gear: [node("gear/unit[0]/position-norm"), node("gear/unit[1]/position-norm"),
             node("gear/unit[2]/position-norm")], handle: node("gear/handle-down") };
         var torque = func(percent) percent > 115 ? 2 : percent > 100 ? 1 : 0;
-        m.left = Bar.new(root, "TQ L", 616, 100, torque);
-        m.right = Bar.new(root, "TQ R", 674, 100, torque);
-        m.rotor = Bar.new(root, "NR %", 740, overspeed_rpm / rated_rpm * 100, func(percent) {
+        m.left = Bar.new(on, "TQ L", 616, 100, torque);
+        m.right = Bar.new(on, "TQ R", 674, 100, torque);
+        m.rotor = Bar.new(on, "NR %", 740, overspeed_rpm / rated_rpm * 100, func(percent) {
             return percent > overspeed_rpm / rated_rpm * 100 or value(m.slow) ? 2 : 0;
         });
         # The governor's speed beside the bar.
-        var bug = area(root, [[778, 0], [792, -8], [792, 8]], CYAN);
+        var bug = area(on.moving, [[778, 0], [792, -8], [792, 8]], CYAN);
         m.setBug = memo(func(y) bug.setTranslation(0, y));
-        var speed = text(root, "0", 757, 960, 25, WHITE, "center-center");
+        var speed = text(on.moving, "0", 757, 960, 25, WHITE, "center-center");
         m.setSpeed = memo(func(rpm) speed.setText(sprintf("%d", rpm)));
-        text(root, "RPM", 672, 960, 22, GREY, "center-center");
+        text(on.below, "RPM", 672, 960, 22, GREY, "center-center");
 
         # Nacelles: from ahead to upright on a quarter of a circle.
         var (x, y, r) = (828, 792, 112);
-        text(root, "NAC", 862, 670, 22, GREY, "center-center");
+        text(on.below, "NAC", 862, 670, 22, GREY, "center-center");
         var marks = [];
         foreach (var deg; [0, 15, 30, 45, 60, 75, 90, 95]) {
             var (s, c) = (math.sin(deg * D2R), math.cos(deg * D2R));
             var inner = math.fmod(deg, 30) == 0 ? r - 18 : r - 9;
             append(marks, [x + inner * c, y - inner * s], [x + r * c, y - r * s], nil);
         }
-        line(root, marks, WHITE, 3);
-        var needle = root.createChild("group").setTranslation(x, y);
+        line(on.below, marks, WHITE, 3);
+        var needle = on.moving.createChild("group").setTranslation(x, y);
         area(needle, [[0, -6], [r - 24, -5], [r - 2, 0], [r - 24, 5], [0, 6]], GREEN);
         m.setNeedle = memo(func(deg) needle.setRotation(-deg * D2R));
-        var angle = text(root, "90", 982, 690, 38, WHITE, "right-center");
+        var angle = text(on.moving, "90", 982, 690, 38, WHITE, "right-center");
         m.setAngle = memo(func(deg) angle.setText(sprintf("%d", deg)));
 
         # Flaps: where they are, and where the lever is.
-        line(root, [[806, 812], [986, 812], nil, [806, 888], [986, 888]], [0.36, 0.40, 0.44], 2);
-        text(root, "FLAPS", 816, 832, 22, GREY, "left-center");
-        var flap = text(root, "0", 982, 832, 31, WHITE, "right-center");
+        line(on.below, [[806, 812], [986, 812], nil, [806, 888], [986, 888]], [0.36, 0.40, 0.44], 2);
+        text(on.below, "FLAPS", 816, 832, 22, GREY, "left-center");
+        var flap = text(on.moving, "0", 982, 832, 31, WHITE, "right-center");
         m.setFlap = memo(func(deg) flap.setText(sprintf("%d", deg)));
         m.setFlapColor = memo(func(moving) flap.setColor(moving ? AMBER : WHITE));
-        line(root, [[820, 866], [970, 866]], GREY, 4);
-        foreach (var deg; flap_deg) line(root, [[820 + deg * 2, 858], [820 + deg * 2, 874]], GREY, 3);
-        var lever = area(root, [[-9, 848], [9, 848], [0, 862]], CYAN);
+        line(on.below, [[820, 866], [970, 866]], GREY, 4);
+        foreach (var deg; flap_deg) line(on.below, [[820 + deg * 2, 858], [820 + deg * 2, 874]], GREY, 3);
+        var lever = area(on.moving, [[-9, 848], [9, 848], [0, 862]], CYAN);
         m.setLever = memo(func(deg) lever.setTranslation(820 + deg * 2, 0));
-        var surface = box(root, 0, 860, 1, 12, GREEN);
+        var surface = box(on.moving, 0, 860, 1, 12, GREEN);
         surface.setTranslation(820, 0);
         m.setSurface = memo(func(px) surface.setScale(px, 1));
 
         # Gear: nose above, mains below; green down, amber moving, grey up.
-        text(root, "GEAR", 816, 910, 22, GREY, "left-center");
+        text(on.below, "GEAR", 816, 910, 22, GREY, "left-center");
         m.lamps = [];
         foreach (var at; [[932, 897], [896, 940], [950, 940]]) {
-            var lamp = box(root, at[0] - 20, at[1], 40, 34, DARK);
+            var lamp = box(on.moving, at[0] - 20, at[1], 40, 34, DARK);
             append(m.lamps, Systems.lamp(lamp));
         }
-        var handle = text(root, "DN", 838, 952, 28, GREEN, "center-center");
+        var handle = text(on.moving, "DN", 838, 952, 28, GREEN, "center-center");
         m.setHandle = memo(func(down) handle.setText(down ? "DN" : "UP"));
         return m;
     },
@@ -456,10 +481,10 @@ var Systems = {
 # ---------------------------------------------------------------- annunciators
 
 var Annunciators = {
-    new: func(root) {
+    new: func(on) {
         var m = { parents: [Annunciators], lamps: [] };
         # Above: what works, what is recorded. Name, place, and of the channel: lit or not, and how.
-        var state = func(name, x, w, of) append(m.lamps, [Annunciators.lamp(root, name, x, 8, w), of]);
+        var state = func(name, x, w, of) append(m.lamps, [Annunciators.lamp(on, name, x, 8, w), of]);
         var works = func(path) { var n = node(path); return func value(n) ? ["", GREEN, 0] : ["", AMBER, 1]; };
         state("SCAS P", 12, 112, works("scas/pitch"));
         state("SCAS R", 132, 112, works("scas/roll"));
@@ -483,7 +508,7 @@ var Annunciators = {
         # Below: warnings, each in its place, dark until there is one.
         var warning = func(name, x, w, path, color) {
             var n = node(path);
-            append(m.lamps, [Annunciators.lamp(root, name, x, 48, w), func value(n) ? [name, color, 1] : ["", GREY, 0]]);
+            append(m.lamps, [Annunciators.lamp(on, name, x, 48, w), func value(n) ? [name, color, 1] : ["", GREY, 0]]);
         };
         warning("MASTER", 12, 112, "lamp/master-warning", RED);
         warning("STALL", 132, 100, "lamp/stall", RED);
@@ -493,23 +518,25 @@ var Annunciators = {
         warning("TORQUE", 594, 122, "lamp/torque-limit", AMBER);
         warning("GEAR", 724, 94, "lamp/gear-warning", RED);
         var excursion = node("corridor/excursion");
-        append(m.lamps, [Annunciators.lamp(root, "CORRIDOR", 826, 48, 162), func {
+        append(m.lamps, [Annunciators.lamp(on, "CORRIDOR", 826, 48, 162), func {
             var x = value(excursion);
             return x > 0 ? ["TOO FAST", RED, 1] : x < 0 ? ["TOO SLOW", RED, 1] : ["", GREY, 0];
         }]);
         return m;
     },
     # A lamp: [words, colour, whether the whole field is lit].
-    lamp: func(root, name, x, y, w) {
-        var field = box(root, x, y, w, 34, [0.10, 0.11, 0.13]);
-        var label = text(root, name, x + w / 2, y + 18, 23, GREY, "center-center");
+    lamp: func(on, name, x, y, w) {
+        box(on.below, x, y, w, 34, [0.10, 0.11, 0.13]);
+        var field = box(on.moving, x, y, w, 34, RED).setVisible(0);
+        var label = text(on.top, name, x + w / 2, y + 18, 23, GREY, "center-center");
         var last = [nil, nil, nil];
         return func(state) {
             if (last[0] == state[0] and last[1] == state[1] and last[2] == state[2]) return;
             last = state;
             if (state[0] != "" or name == "") label.setText(state[0]);
             label.setVisible(state[1] != GREY or name == "REC" or name == "MKR");
-            field.setColorFill(state[2] ? state[1] : [0.10, 0.11, 0.13]);
+            field.setVisible(state[2]);
+            if (state[2]) field.setColorFill(state[1]);
             label.setColor(state[2] ? DARK : state[1]);
         };
     },
@@ -524,11 +551,18 @@ var parts = [];
 
 var build = func {
     display = canvas.new({ name: "XV-15 PFD", size: [PIXELS, PIXELS], view: [VIEW, VIEW], mipmapping: 0 });
-    display.setColorBackground(0.015, 0.018, 0.022, 1);
     var root = display.createGroup();
-    parts = [Horizon.new(root), Airspeed.new(root), Height.new(root), Compass.new(root),
-        Corridor.new(root), Systems.new(root), Annunciators.new(root)];
-    canvas.parsesvg(root, "Aircraft/XV-15/Display/pfd.svg");
+    # What stands still below all that moves, what moves, what stands still above it, digits and words.
+    var below = sheet("below", VIEW, VIEW, PIXELS / VIEW, [0.015, 0.018, 0.022, 1]);
+    var above = sheet("above", VIEW, VIEW, PIXELS / VIEW);
+    picture(root, below, 0, 0);
+    var moving = root.createChild("group");
+    picture(root, above, 0, 0);
+    var on = { below: below.createGroup(), moving: moving, above: above.createGroup(),
+        top: root.createChild("group") };
+    canvas.parsesvg(on.above, "Aircraft/XV-15/Display/pfd.svg");
+    parts = [Horizon.new(on), Airspeed.new(on), Height.new(on), Compass.new(on), Corridor.new(on),
+        Systems.new(on), Annunciators.new(on)];
     foreach (var side; ["left", "right"]) display.addPlacement({ node: "pfd." ~ side });
 };
 
