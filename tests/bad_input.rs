@@ -221,7 +221,7 @@ fn nobody_at_the_controls_is_told_who_could_be() {
     let out = folder("bad-nobody").join("flight.mcap");
     tiltrotor(&["fly", "--no-flightgear", "--out", text(&out)])
         .refused()
-        .says("nobody flies: give --stick, --pilot NAME")
+        .says("nobody flies: give --stick, --keyboard")
         .says("--script FILE");
     assert!(!out.exists());
 }

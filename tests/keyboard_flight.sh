@@ -5,10 +5,14 @@
 #
 #   PICTURE=docs/panel.txt tests/keyboard_flight.sh
 #
-# TILTROTOR names the program; without it, the release build is taken.
+# TILTROTOR names the program; without it, a release build is made. Needs tmux.
 set -eu
 cd "$(dirname "$0")/.."
-program=$(realpath "${TILTROTOR:-target/release/tiltrotor}")
+command -v tmux >/dev/null || { echo "skipped: needs tmux"; exit 77; }
+if [ -z "${TILTROTOR:-}" ]; then
+    cargo build --quiet --release --no-default-features --target-dir target/headless
+fi
+program=$(realpath "${TILTROTOR:-target/headless/release/tiltrotor}")
 folder=$(mktemp -d)
 tmux="tmux -L tiltrotor-$$"
 trap '$tmux kill-server 2>/dev/null || true; rm -rf "$folder"' EXIT

@@ -6,15 +6,18 @@
 #
 #   tests/realtime.sh [SECONDS]      600 without; 20 for a first look
 #
-# TILTROTOR names the program; without it, the release build is taken. Needs cyclictest (rt-tests), strace,
+# TILTROTOR names the program; without it, a release build is made. Needs cyclictest (rt-tests), strace,
 # and the permission for real-time scheduling.
 set -eu
 cd "$(dirname "$0")/.."
 seconds=${1:-600}
-program=$(realpath "${TILTROTOR:-target/release/tiltrotor}")
 for tool in cyclictest strace; do
-    command -v $tool >/dev/null || { echo "needs $tool (Debian: rt-tests, strace)"; exit 2; }
+    command -v $tool >/dev/null || { echo "skipped: needs $tool (Debian: rt-tests, strace)"; exit 77; }
 done
+if [ -z "${TILTROTOR:-}" ]; then
+    cargo build --quiet --release --no-default-features --target-dir target/headless
+fi
+program=$(realpath "${TILTROTOR:-target/headless/release/tiltrotor}")
 folder=$(mktemp -d)
 children=
 trap 'for child in $children; do kill "$child" 2>/dev/null || true; done; rm -rf "$folder"' EXIT
@@ -45,7 +48,7 @@ for stat in /proc/$flight/task/*/stat; do
     found=$(sed 's/.*) //' "$stat" | cut -d' ' -f38)
     [ "$found" -le "$priority" ] || priority=$found
 done
-[ "$priority" -gt 0 ] || { echo "no real-time scheduling here: nothing to compare"; exit 2; }
+[ "$priority" -gt 0 ] || { echo "skipped: no real-time scheduling here, nothing to compare"; exit 77; }
 echo "SCHED_FIFO, priority $priority, both"
 loops=$(((seconds - 2) * 250))
 cyclictest -q -m -t1 -p "$priority" -i 4000 -l "$loops" -h 200000 >"$folder/cyclictest"

@@ -124,9 +124,10 @@ impl Statistics {
         self.slip_ns_max = self.slip_ns_max.max(timing.slip_ns);
         self.late.add(timing.late_ns);
         self.step.add(timing.step_ns);
-        self.sent.add(timing.late_ns + timing.sent_ns);
+        // A log may hold any number.
+        self.sent.add(timing.late_ns.saturating_add(timing.sent_ns));
         self.record.add(timing.record_ns);
-        self.implausible_events += timing.implausible_events;
+        self.implausible_events = self.implausible_events.saturating_add(timing.implausible_events);
     }
 
     /// Every kind of duration, with its name in the log.
