@@ -54,6 +54,7 @@ pub fn found(
         link.send(&picture);
     }
     if link.nobody_listens() && whose == Whose::Auto {
+        link.count_anew();
         return Ok((link, None));
     }
     let stop = Progress::default();
@@ -85,7 +86,8 @@ pub fn found(
         }
         thread::sleep(Duration::from_millis(10));
     };
-    let Some(link) = hold.stop() else { bail!("the thread to FlightGear died") };
+    let Some(mut link) = hold.stop() else { bail!("the thread to FlightGear died") };
+    link.count_anew();
     if ground_m.is_none() && whose == Whose::Flightgear {
         let (reports, refused) = receiver.counts();
         bail!(

@@ -101,6 +101,13 @@ impl Link {
         }
     }
 
+    /// Counts from here on: what went before was no flight.
+    pub fn count_anew(&mut self) {
+        for way in &mut self.ways {
+            (way.sent, way.dropped) = (0, 0);
+        }
+    }
+
     /// Where pictures go.
     pub fn destinations(&self) -> impl Iterator<Item = SocketAddr> + '_ {
         self.ways.iter().map(|way| way.fdm.destination)

@@ -1,4 +1,4 @@
-//! How numbers are sent: big-endian, of the generic protocol's types.
+//! Numbers as they are on the wire.
 
 /// How a number is sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
