@@ -52,7 +52,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Fly in real time (or --fast) with a stick, a pilot model or a script.
-    Fly(fly::Args),
+    Fly(Box<fly::Args>),
     /// Sticks, throttles, pedals and gamepads: what is there, what is flown with, a new map.
     Devices(devices::Args),
     /// Refly a log, live in FlightGear.

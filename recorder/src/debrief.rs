@@ -172,6 +172,7 @@ impl fmt::Display for Debrief {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "what is passed on stays the same to the bit")]
 mod tests {
     use super::*;
 

@@ -432,6 +432,7 @@ fn wind(world: &mut World, by_deg: f64, by_kt: f64, seen: &Outputs) {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "what is passed on stays the same to the bit")]
 mod tests {
     use engine::inputs::{DeviceEvent, EventKind};
 

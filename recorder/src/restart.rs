@@ -107,6 +107,7 @@ fn weather(situation: &Situation, tick: u64, now: &World) -> World {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "what is passed on stays the same to the bit")]
 mod tests {
     use super::*;
 

@@ -42,7 +42,7 @@ impl Durations {
             let to_ns = step.value_iterated_to().div_ceil(width) * width;
             match steps.last_mut() {
                 Some((last_ns, count)) if *last_ns == to_ns => {
-                    *count += step.count_since_last_iteration()
+                    *count += step.count_since_last_iteration();
                 }
                 _ => steps.push((to_ns, step.count_since_last_iteration())),
             }
