@@ -6,6 +6,7 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fs;
+use std::net::UdpSocket;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -14,6 +15,7 @@ use divan::counter::ItemsCount;
 use engine::inputs::World;
 use engine::start::Start;
 use engine::{Aircraft, Inputs, State, step};
+use flightgear::{Picture, Scene};
 use logs::compact::Copied;
 use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
@@ -91,6 +93,44 @@ fn one_tick(bencher: Bencher) {
         state = step(&aircraft, &state, &inputs).0;
     }
     bencher.bench_local(|| step(&aircraft, divan::black_box(&state), &inputs));
+}
+
+/// The same in the picture that FlightGear is sent: a hovering XV-15.
+fn scene() -> (Aircraft, engine::Outputs) {
+    let (aircraft, start) = ready();
+    let state = start.on_wheels(&aircraft);
+    let outputs = engine::observe(&aircraft, &state, &World::default());
+    (aircraft, outputs)
+}
+
+/// Both packets of a picture, made.
+#[divan::bench]
+fn picture_of_a_tick(bencher: Bencher) {
+    let (aircraft, outputs) = scene();
+    let (world, lamps) = (World::default(), flightgear::Lamps::default());
+    bencher.bench_local(|| {
+        let outputs = divan::black_box(&outputs);
+        Picture::of(&Scene { aircraft: &aircraft, outputs, world: &world, lamps })
+    });
+}
+
+/// The same made and sent to a FlightGear that listens, all that it costs the loop's thread.
+#[divan::bench]
+fn picture_sent(bencher: Bencher) {
+    let (aircraft, outputs) = scene();
+    let (world, lamps) = (World::default(), flightgear::Lamps::default());
+    let sockets = (0..100).find_map(|_| {
+        let fdm = UdpSocket::bind("127.0.0.1:0").ok()?;
+        let next = fdm.local_addr().ok()?.port().checked_add(1)?;
+        Some((UdpSocket::bind(("127.0.0.1", next)).ok()?, fdm))
+    });
+    let (_channel, fdm) = sockets.expect("two ports in a row");
+    let place = fdm.local_addr().expect("bound").to_string();
+    let mut link = flightgear::Link::new(&[place]).expect("a link");
+    bencher.bench_local(|| {
+        let outputs = divan::black_box(&outputs);
+        link.send(&Picture::of(&Scene { aircraft: &aircraft, outputs, world: &world, lamps }));
+    });
 }
 
 /// What the loop's thread pays for recording a tick: inputs, state and timing into the ring, while

@@ -25,7 +25,10 @@ fn main() {
         }
         let _ = writeln!(list, "    ({place:?}, include_bytes!({:?})),", path.to_string_lossy());
     }
-    let _ = write!(list, "];\n/// Changes with the files.\nconst CONTENT: u64 = {content};\n");
+    let _ = write!(
+        list,
+        "];\n/// Changes with the files.\nconst CONTENT: &str = \"{content:016x}\";\n"
+    );
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo tells"));
     fs::write(out.join("files.rs"), list).expect("written");
 }

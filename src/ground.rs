@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, bail};
 use engine::start::Start;
 use engine::{Aircraft, observe};
-use flightgear::{Lamps, Link, Picture, Receiver, Scene};
+use flightgear::{Hold, Lamps, Link, Picture, Receiver, Scene};
 use recorder::{Progress, ground};
 
 /// Whose ground the wheels stand on.
@@ -54,11 +54,12 @@ pub fn found(
         link.send(&picture);
     }
     if link.nobody_listens() && whose == Whose::Auto {
+        link.count_anew();
         return Ok((link, None));
     }
     let stop = Progress::default();
     stop.stop_on_signals()?;
-    let hold = link.hold(picture);
+    let hold = Hold::start(link, picture);
     let began = Instant::now();
     let (mut last, mut agreed, mut told) = ((0, f64::NAN), 0, false);
     let ground_m = loop {
@@ -85,7 +86,8 @@ pub fn found(
         }
         thread::sleep(Duration::from_millis(10));
     };
-    let Some(link) = hold.stop() else { bail!("the thread to FlightGear died") };
+    let Some(mut link) = hold.stop() else { bail!("the thread to FlightGear died") };
+    link.count_anew();
     if ground_m.is_none() && whose == Whose::Flightgear {
         let (reports, refused) = receiver.counts();
         bail!(

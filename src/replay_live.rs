@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use engine::{Aircraft, STEP_S};
-use flightgear::{Lamps, Link, Picture};
+use flightgear::{Hold, Lamps, Link, Picture};
 use recorder::Pace;
 use replay::judgement::disorder;
 use replay::playback::{Frame, Moment};
@@ -75,8 +75,10 @@ pub fn run(args: &Args) -> Result<Status> {
     let Showing { mut playback, mut facts, link, last, ticks, slipped_ns, .. } = showing;
     // While the rest is said and judged, the last picture stays.
     let sent = link.as_ref().map(Link::sent).unwrap_or_default();
-    let hold =
-        link.filter(|link| !link.nobody_listens()).zip(last).map(|(link, last)| link.hold(last));
+    let hold = link
+        .filter(|link| !link.nobody_listens())
+        .zip(last)
+        .map(|(link, last)| Hold::start(link, last));
     facts.end_of_reflight(&mut playback.flight, disorder, &window);
     say!(
         "{}: {:.1} s reflown from {:.3} s on at {} times real time",

@@ -32,7 +32,7 @@ from pathlib import Path
 
 page, folder, write = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 # How long something took, and how well it packs beside what tells that.
-TIMING = re.compile(r"^(overruns|late by|step|hand-over|to picture|writer|self-check|reflown in)\b")
+TIMING = re.compile(r"^((tiltrotor: )?the clock slipped|overruns|late by|step|hand-over|to picture|writer|self-check|reflown in)\b")
 # When the flight was flown, and what follows from it.
 MOMENT = re.compile(r"(seal|started_unix_ns): .*")
 # How many pictures a wall second of a fast replay holds is the machine's.

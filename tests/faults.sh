@@ -145,7 +145,7 @@ faults "whatif" whole out.mcap precious whatif log.mcap --set fcc.travel.pedal_i
     --out out.mcap
 faults "trim --csv" whole out.csv precious trim --speed-kt 0 --nacelle 90 --csv out.csv
 faults "linearize --csv" whole out.csv precious linearize --speed-kt 0 --nacelle 90 --csv out.csv
-flight=$("$program" log export log.mcap --csv tables | sed 's/^log.mcap: \([^,]*\),.*/\1/')
+flight=$("$program" log export log.mcap --csv tables | sed -n '1s/^log.mcap: \([^,]*\),.*/\1/p')
 faults "log export --csv" whole "tables/state/flight=$flight/data.csv" precious \
     log export log.mcap --force --csv tables
 if "$program" view log.mcap --save seen.rrd >/dev/null 2>&1; then

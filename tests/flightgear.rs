@@ -44,8 +44,17 @@ fn flight() -> &'static (PathBuf, Heard) {
     static FLIGHT: OnceLock<(PathBuf, Heard)> = OnceLock::new();
     FLIGHT.get_or_init(|| {
         let log = folder("flightgear").join("flight.mcap");
-        let (said, heard) =
-            watched(&["fly", "--pilot", "hover", "--duration", "2", "--out", text(&log)]);
+        let (said, heard) = watched(&[
+            "fly",
+            "--pilot",
+            "hover",
+            "--duration",
+            "2",
+            "--ground",
+            "flat",
+            "--out",
+            text(&log),
+        ]);
         said.ends(OK).says("FlightGear 500 pictures sent to 127.0.0.1:").says(", 0 not");
         (log, heard)
     })
@@ -176,6 +185,7 @@ fn every_place_gets_the_picture() {
     let log = folder("flightgear-several").join("flight.mcap");
     let views = [FakeFlightGear::new(), FakeFlightGear::new(), FakeFlightGear::new()];
     let mut program = command(&["fly", "--pilot", "hover", "--duration", "0.5", "--hold", "0"]);
+    program.args(["--ground", "flat"]);
     program.args(["--out", text(&log)]);
     for view in &views {
         program.args(["--flightgear", &view.place()]);
@@ -198,6 +208,7 @@ fn frozen_over_the_end_of_a_flight_it_shows_the_end_when_it_wakes() {
     let place = flightgear.place();
     let arguments =
         ["fly", "--pilot", "hover", "--duration", "2", "--flightgear", &place, "--out", text(&log)];
+    let arguments = [&arguments[..], &["--ground", "flat"]].concat();
     let began = Instant::now();
     let mut flying = command(&arguments).spawn().expect("the command runs");
     // Frozen from 1 s on for 5 s; the flight is over after two.
@@ -221,6 +232,7 @@ fn killed_and_restarted_it_gets_the_newest_picture_and_the_log_is_exact() {
     let place = first.place();
     let arguments =
         ["fly", "--pilot", "hover", "--duration", "3", "--flightgear", &place, "--out", text(&log)];
+    let arguments = [&arguments[..], &["--ground", "flat"]].concat();
     let mut flying = command(&arguments).arg("--hold").arg("0").spawn().expect("it runs");
     thread::sleep(Duration::from_secs(1));
     drop(first);

@@ -6,6 +6,7 @@
 #   tests/full.sh STEP...      these
 #   tests/full.sh --list       what there is
 #
+# TILTROTOR names a program that is there, for the steps that take one; the others build their own.
 # What a step prints is kept in target/full/STEP.log, the table in target/full/summary.txt. A step that ends
 # with 77 was skipped, for it lacks something. Ends with 1 when a step has failed.
 set -uo pipefail
@@ -26,13 +27,13 @@ step bits "every bit of a real log flipped" "tests/integrity.sh bits"
 step kills "a hundred flights killed, a full disk" "tests/integrity.sh kills"
 step fuzz "20,000 changed logs, files, packets" "tests/integrity.sh fuzz"
 step memory "memory does not grow with the flight" "tests/integrity.sh memory"
-step faults "every writing verb, with a fault or killed at every kind of system call" tests/faults.sh
-step anomaly "the story of docs/anomaly.md is what the commands print" tests/anomaly.sh
+step faults "every writing verb, with a fault or killed at every kind of system call" 'tests/faults.sh ${TILTROTOR:-}'
+step anomaly "the story of docs/anomaly.md is what the commands print" 'tests/anomaly.sh ${TILTROTOR:-}'
 step determinism "the same bits by every build and processor at hand, 64-bit Arm included" \
     'if command -v qemu-aarch64 aarch64-linux-gnu-gcc >/dev/null; then export TILTROTOR_AARCH64=build; fi
     tests/determinism.sh'
 step cross "other systems' programs" "tests/cross.sh"
-step verify-speed "how fast a log is verified" "benches/verify_speed.sh"
+step verify-speed "how fast a log is verified" 'benches/verify_speed.sh ${TILTROTOR:-}'
 step jsbsim "a tick beside JSBSim's" "benches/jsbsim_ratio.sh"
 step pilot-matrix "every pilot model from every start that the command offers" tests/pilot_matrix.sh
 step pilots "pilot models in wind and turbulence" tests/pilots.sh

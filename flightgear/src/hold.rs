@@ -19,7 +19,8 @@ pub struct Hold {
 }
 
 impl Hold {
-    pub(crate) fn start(mut link: Link, picture: Picture) -> Self {
+    /// Goes on sending a picture, 250 times a second, on a thread of its own.
+    pub fn start(mut link: Link, picture: Picture) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let stopping = Arc::clone(&stop);
         let thread = thread::spawn(move || {

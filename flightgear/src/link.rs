@@ -4,7 +4,7 @@
 //! # The newest picture wins
 //! FlightGear reads everything that waits for it once a frame, and shows the last. While it stands
 //! still, its system keeps the *oldest* packets, two thirds of a second of them, and drops the rest.
-//! So whoever has nothing new to show goes on sending the last picture ([`Link::hold`]): the first one
+//! So whoever has nothing new to show goes on sending the last picture ([`Hold`](crate::Hold)): the first one
 //! after FlightGear has emptied its queue is the newest.
 //!
 //! # Assumptions
@@ -14,7 +14,6 @@
 use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
 
-use crate::hold::Hold;
 use crate::picture::Picture;
 
 /// Where `fgfs --native-fdm=socket,in,60,127.0.0.1,5501,udp` listens.
@@ -102,9 +101,11 @@ impl Link {
         }
     }
 
-    /// Goes on sending a picture, 250 times a second, on a thread of its own.
-    pub fn hold(self, picture: Picture) -> Hold {
-        Hold::start(self, picture)
+    /// Counts from here on: what went before was no flight.
+    pub fn count_anew(&mut self) {
+        for way in &mut self.ways {
+            (way.sent, way.dropped) = (0, 0);
+        }
     }
 
     /// Where pictures go.

@@ -28,7 +28,7 @@ impl Package {
     /// # Errors
     /// When it cannot be written.
     pub fn unpack(folder: &Path) -> io::Result<Self> {
-        let place = folder.join(format!("flightgear-{CONTENT:016x}"));
+        let place = folder.join(format!("flightgear-{CONTENT}"));
         for (name, bytes) in FILES {
             let path = place.join(name);
             if fs::metadata(&path).is_ok_and(|there| there.len() == bytes.len() as u64) {

@@ -11,6 +11,8 @@
 
 use std::fmt::Write as _;
 
+use engine::math::max;
+
 use crate::channel::Kind::{self, Double, Int};
 
 /// Name of the protocol: FlightGear looks for `Protocol/tiltrotor-out.xml`.
@@ -202,8 +204,8 @@ impl Report {
                 aileron: unit(aileron),
                 elevator: unit(elevator),
                 rudder: unit(rudder),
-                throttle: unit(throttle).max(0.0),
-                brakes: [unit(brake_left).max(0.0), unit(brake_right).max(0.0)],
+                throttle: max(0.0, unit(throttle)),
+                brakes: [max(0.0, unit(brake_left)), max(0.0, unit(brake_right))],
                 nacelle: unit(nacelle) as i64,
                 presses: presses.map(|number| number as i64),
             },

@@ -74,6 +74,8 @@ struct Filter {
     /// A cliff that was found once, and how often since.
     doubtful: Option<(Struts<f64>, u32)>,
     silent_ticks: u64,
+    /// Where it was in the tick before.
+    place: Option<Geodetic>,
     /// Whether there has been any.
     begun: bool,
 }
@@ -88,6 +90,7 @@ impl Filter {
             ground_m: Struts::default(),
             doubtful: None,
             silent_ticks: 0,
+            place: None,
             begun: false,
         }
     }
@@ -101,6 +104,10 @@ impl Filter {
                 self.silent_ticks = 0;
                 self.take(above(&self.origin, sample));
             }
+        }
+        if self.has_jumped(&seen.place) {
+            // The flight was begun anew elsewhere: what is known is of another place.
+            (self.ground_m, self.wanted_m, self.doubtful) = Default::default();
         }
         let clearance_m = seen.height_above_ground_m - self.wheels_m;
         let near = clearance_m < CLEAR_M;
@@ -120,6 +127,16 @@ impl Filter {
         self.ground_m.nose = toward(self.ground_m.nose, wanted_m.nose);
         self.ground_m.main = self.ground_m.main.zip(wanted_m.main).map(|(at, to)| toward(at, to));
         self.begun.then_some(self.ground_m)
+    }
+
+    /// Whether the aircraft is elsewhere than flying could have brought it in a tick.
+    fn has_jumped(&mut self, place: &Geodetic) -> bool {
+        let before = self.place.replace(*place);
+        before.is_some_and(|before| {
+            let north_m = (place.latitude_rad - before.latitude_rad) * EARTH_M;
+            let east_m = (place.longitude_rad - before.longitude_rad) * EARTH_M;
+            square(north_m) + square(east_m) > square(NEAR_M)
+        })
     }
 
     fn take(&mut self, height_m: Struts<f64>) {

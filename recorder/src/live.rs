@@ -11,7 +11,7 @@ use std::sync::mpsc;
 use engine::controls::PickUp;
 use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Inputs, Outputs, STEP_NS, State, observe, step};
-use flightgear::{Lamps, Link, Picture, Recording as Lamp, Scene};
+use flightgear::{Hold, Lamps, Link, Picture, Recording as Lamp, Scene};
 #[cfg(feature = "sticks")]
 use logs::devices::DeviceIdentity;
 use logs::output::Output;
@@ -414,7 +414,7 @@ where
             .link
             .filter(|link| !link.nobody_listens())
             .zip(last)
-            .map(|(link, last)| link.hold(last));
+            .map(|(link, last)| Hold::start(link, last));
         let backlog_max = self.recording.backlog_max;
         // Before the log is closed: what it finds last is told there, too.
         let checked = self.self_check.map(SelfCheck::finish);

@@ -65,7 +65,8 @@ fn ways(control: AxisControl) -> (&'static str, &'static str) {
 fn planned(path: Option<&Path>) -> Result<recorder::devices::Plan> {
     use recorder::devices;
 
-    let survey = devices::survey();
+    let mut survey = devices::survey();
+    survey.ignored.extend(devices::taken(&survey));
     let Some(path) = path else { return Ok(devices::combined(&devices::shipped()?, &survey)?) };
     let map = crate::maps::cockpit_map(path)?;
     let mut plan = devices::plan(&map, &survey)?;

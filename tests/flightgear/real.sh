@@ -127,6 +127,16 @@ wait_until_ready() {
         last=$now
         sleep 0.3
     done
+    no_complaints
+}
+
+# FlightGear tells of faults in the aircraft's scripts, model and sounds in its log only.
+no_complaints() {
+    local complaints='Nasal (runtime|parse) error|[Ff]ailed to load|Error reading|could not find.*Aircraft/XV-15'
+    if grep -E -A4 "$complaints" "$work/fgfs$http.log"; then
+        echo "FlightGear complains of the aircraft"
+        exit 1
+    fi
 }
 
 stop() { # PROCESS

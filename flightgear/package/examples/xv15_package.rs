@@ -44,6 +44,52 @@ mod tests {
         }
     }
 
+    /// What is between two texts, everywhere.
+    fn between<'a>(text: &'a str, before: &'a str, after: char) -> impl Iterator<Item = &'a str> {
+        text.split(before).skip(1).filter_map(move |rest| rest.split(after).next())
+    }
+
+    fn tree(path: &str) -> String {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
+        fs::read_to_string(&path).unwrap_or_else(|why| panic!("{}: {why}", path.display()))
+    }
+
+    /// A node with its first index, as FlightGear has it: `rotor/rpm` is `rotor[0]/rpm`.
+    fn indexed(node: &str) -> String {
+        let parts = node.split('/').map(|part| part.strip_suffix("[0]").unwrap_or(part));
+        parts.collect::<Vec<_>>().join("/")
+    }
+
+    #[test]
+    fn whatever_moves_or_is_shown_is_sent() {
+        let protocol = tree("flightgear/data/Protocol/tiltrotor.xml");
+        let sent: Vec<_> = between(&protocol, "<node>/tiltrotor/", '<').map(indexed).collect();
+        let display = tree(&format!("{FOLDER}/Nasal/pfd.nas"));
+        let sounds = tree(&format!("{FOLDER}/Sounds/xv15-sound.xml"));
+        let model = tree(&format!("{FOLDER}/Models/xv15.xml"));
+        let moved = between(&model, "<property>tiltrotor/", '<')
+            .chain(between(&sounds, "<property>tiltrotor/", '<'));
+        let shown = between(&display, "node(\"", '"')
+            .chain(between(&display, "works(\"", '"'));
+        let mut seen = 0;
+        for node in moved.chain(shown) {
+            seen += 1;
+            assert!(sent.contains(&indexed(node)), "tiltrotor/{node} is not sent");
+        }
+        assert!(seen > 100, "{seen} properties");
+    }
+
+    #[test]
+    fn no_comment_of_xml_holds_what_would_end_it() {
+        for file in ["xv15-set.xml", "Models/xv15.xml", "Sounds/xv15-sound.xml", "Display/pfd.svg"] {
+            let text = tree(&format!("{FOLDER}/{file}"));
+            for comment in text.split("<!--").skip(1) {
+                let inside = comment.split("-->").next().unwrap_or("");
+                assert!(!inside.contains("--"), "{file}: <!--{inside}-->");
+            }
+        }
+    }
+
     #[test]
     fn the_package_is_small() {
         let bytes: usize = made().iter().map(|file| file.bytes.len()).sum();

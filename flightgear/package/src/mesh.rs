@@ -2,7 +2,7 @@
 //!
 //! Points are stations of the drawing, m: aft, right, up.
 
-use engine::math::sqrt;
+use engine::math::{TAU, cos, sin, sqrt};
 
 /// A point or a direction.
 pub type Point = [f64; 3];
@@ -175,9 +175,7 @@ impl Mesh {
         let across = unit(cross(along, helper));
         let third = cross(along, across);
         let circle = |at: Point, r: f64| {
-            crate::shape::ring(points, |s, c| {
-                add(at, add(scale(across, r * c), scale(third, r * s)))
-            })
+            ring(points, |s, c| add(at, add(scale(across, r * c), scale(third, r * s))))
         };
         self.body(material, &[circle(from, radius), circle(to, end_radius)]);
     }
@@ -354,6 +352,16 @@ pub fn cross(a: Point, b: Point) -> Point {
 pub fn unit(a: Point) -> Point {
     let length = sqrt(dot(a, a));
     if length > 1e-12 { scale(a, 1.0 / length) } else { [0.0, 0.0, 1.0] }
+}
+
+/// Points around a circle from its sine and cosine.
+pub fn ring(points: u16, at: impl Fn(f64, f64) -> Point) -> Vec<Point> {
+    (0..points)
+        .map(|i| {
+            let angle_rad = TAU * f64::from(i) / f64::from(points);
+            at(sin(angle_rad), cos(angle_rad))
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -10,10 +10,12 @@ use engine::units::{
 };
 use engine::{GRAVITY_MPS2, STEP_S};
 
-use super::Kind::{self, Double, Float, Int};
-use super::SCHEMA;
+use super::kind::Kind::{self, Double, Float, Int};
 use crate::display;
 use crate::scene::Scene;
+
+/// Version of the table. A change of what is sent, or of its order, counts it up.
+pub const SCHEMA: i32 = 1;
 
 /// One property, or the same of several parts.
 #[derive(Clone, Copy, Debug)]

@@ -153,7 +153,7 @@ fn a_picture_that_is_held_reaches_who_wakes_late() {
     for tick in 0..1250 {
         link.send(&at_height(f64::from(tick)));
     }
-    let hold = link.hold(at_height(9999.0));
+    let hold = crate::Hold::start(link, at_height(9999.0));
     thread::sleep(Duration::from_millis(50));
     let woke = Instant::now();
     let is_newest = |picture: Picture| picture == at_height(9999.0);

@@ -8,7 +8,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::os::unix::fs::OpenOptionsExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use engine::inputs::{DeviceEvent, EventKind};
@@ -80,6 +80,9 @@ pub fn survey() -> Survey {
 /// Which of the devices another program has taken for itself.
 pub fn taken(survey: &Survey) -> Vec<Ignored> {
     let is_taken = |found: &&Found| {
+        if !found.kind.flies() {
+            return false;
+        }
         let Ok((mut reading, _)) = Reading::open(&found.node) else { return false };
         let grabbed = reading.device.grab();
         let _ = reading.device.ungrab();
@@ -110,10 +113,14 @@ fn name_of(node: &str) -> String {
     text.map_or_else(|_| "unknown".into(), |text| text.trim().to_string())
 }
 
-/// Where a device is plugged in, as udev names it.
-fn port_of(node: &str) -> Option<String> {
+/// A device as udev knows it.
+fn in_udev(node: &str) -> Option<udev::Device> {
     let name = node.rsplit('/').next()?.to_string();
-    let device = udev::Device::from_subsystem_sysname("input".into(), name).ok()?;
+    udev::Device::from_subsystem_sysname("input".into(), name).ok()
+}
+
+/// Where a device is plugged in, as udev names it.
+fn port_of(device: &udev::Device) -> Option<String> {
     Some(device.property_value("ID_PATH")?.to_str()?.to_string())
 }
 
@@ -121,6 +128,8 @@ fn port_of(node: &str) -> Option<String> {
 struct Reading {
     device: RawDevice,
     node: String,
+    /// Its place in sysfs, which the next device on the same node does not have.
+    place: Option<PathBuf>,
     /// Its number in the map.
     number: usize,
     axes: Vec<Axis>,
@@ -134,6 +143,7 @@ impl Reading {
         let flags = (OFlags::NONBLOCK | OFlags::CLOEXEC).bits().cast_signed();
         let file: File = OpenOptions::new().read(true).custom_flags(flags).open(node)?;
         let device = RawDevice::from_fd(OwnedFd::from(file))?;
+        let udevs = in_udev(node);
         let axes = axes_of(&device)?;
         let pressed = pressed_of(&device);
         let id = device.input_id();
@@ -155,7 +165,11 @@ impl Reading {
             product: u64::from(id.product()),
             version: u64::from(id.version()),
             uniq: text(device.unique_name()),
-            port: port_of(node).unwrap_or_else(|| phys.clone()),
+            port: udevs
+                .as_ref()
+                .and_then(port_of)
+                .or_else(|| Some(phys.clone()).filter(|phys| !phys.is_empty()))
+                .unwrap_or_else(|| node.to_string()),
             phys,
             kind: kind(&axes, &keys, has_pointer, is_motion, has_relative),
             axes: axes.clone(),
@@ -163,7 +177,8 @@ impl Reading {
             pressed: pressed.clone(),
         };
         let node = node.to_string();
-        Ok((Self { device, node, number: 0, axes, pressed, lost: false }, found))
+        let place = udevs.map(|device| device.syspath().to_path_buf());
+        Ok((Self { device, node, place, number: 0, axes, pressed, lost: false }, found))
     }
 
     /// Reads what there is; whether the device is still there.
@@ -301,8 +316,8 @@ impl Reader {
         while !stop.load(Ordering::Relaxed) {
             let (ready, changed) = self.wait(nodes.as_ref(), monitor.as_ref());
             let mut gone = Vec::new();
-            for at in ready {
-                if !self.reading[at].read(&mut self.stream) {
+            for (at, hung_up) in ready {
+                if !self.reading[at].read(&mut self.stream) || hung_up {
                     gone.push(self.reading[at].node.clone());
                 }
             }
@@ -315,12 +330,13 @@ impl Reader {
         }
     }
 
-    /// Waits for anything; which devices have something, and whether devices come or go.
+    /// Waits for anything; which devices have something and whether it is the last, and whether devices
+    /// come or go.
     fn wait(
         &self,
         nodes: Option<&Inotify>,
         monitor: Option<&udev::MonitorSocket>,
-    ) -> (Vec<usize>, bool) {
+    ) -> (Vec<(usize, bool)>, bool) {
         let readable = |fd| PollFd::from_borrowed_fd(fd, PollFlags::IN);
         let devices = self.reading.iter().map(|reading| reading.device.as_fd());
         let others = nodes.map(AsFd::as_fd).into_iter().chain(monitor.map(AsFd::as_fd));
@@ -331,7 +347,9 @@ impl Reader {
         }
         let has = |fd: &PollFd<'_>| !fd.revents().is_empty();
         let (devices, others) = polled.split_at(self.reading.len());
-        let ready = devices.iter().enumerate().filter(|(_, fd)| has(fd)).map(|(at, _)| at);
+        let last = PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL;
+        let ready = devices.iter().enumerate().filter(|(_, fd)| has(fd));
+        let ready = ready.map(|(at, fd)| (at, fd.revents().intersects(last)));
         (ready.collect(), others.iter().any(has))
     }
 
@@ -350,23 +368,25 @@ impl Reader {
                 self.told(&format!("{NODES}/{name}"), gone);
             }
         }
-        let told: Vec<(String, bool)> = monitor
-            .map(|monitor| {
-                let events = monitor.iter();
-                let told = events.filter_map(|event| {
-                    let name = event.sysname().to_str()?.to_string();
-                    match event.event_type() {
-                        udev::EventType::Add | udev::EventType::Change => Some((name, false)),
-                        udev::EventType::Remove => Some((name, true)),
-                        _ => None,
-                    }
-                });
-                told.collect()
-            })
-            .unwrap_or_default();
-        for (name, gone) in told {
-            self.told(&format!("{NODES}/{name}"), gone);
+        let events: Vec<udev::Event> =
+            monitor.map(|monitor| monitor.iter().collect()).unwrap_or_default();
+        for event in events {
+            let node = format!("{NODES}/{}", event.sysname().to_string_lossy());
+            match event.event_type() {
+                udev::EventType::Add | udev::EventType::Change => self.told(&node, false),
+                // It may come late, when the next device has the node already.
+                udev::EventType::Remove if !self.is_another(&node, event.syspath()) => {
+                    self.told(&node, true);
+                }
+                _ => {}
+            }
         }
+    }
+
+    /// Whether what is read from the node is not the device at this place in sysfs.
+    fn is_another(&self, node: &str, place: &Path) -> bool {
+        let reading = self.reading.iter().find(|reading| reading.node == node);
+        reading.and_then(|reading| reading.place.as_deref()).is_some_and(|known| known != place)
     }
 
     fn told(&mut self, node: &str, gone: bool) {

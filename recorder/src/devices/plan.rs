@@ -283,14 +283,16 @@ fn tell(plan: &mut Plan, survey: &Survey) {
         told.push(format!("{} is not used: {}", named(found), why_not(found)));
     }
     for ignored in &survey.ignored {
-        if ignored.why == Why::Permission && ignored.name == "unknown" {
-            continue;
-        }
-        if ignored.why != Why::Broken {
-            told.push(format!(
-                "{} ({}) is not used: `tiltrotor devices` says why",
-                ignored.name, ignored.node
-            ));
+        let (name, node) = (&ignored.name, &ignored.node);
+        match ignored.why {
+            Why::Taken => told.push(format!(
+                "{name} ({node}) will say nothing: another program has taken it for itself"
+            )),
+            Why::Permission if name != "unknown" => told.push(format!(
+                "{name} ({node}) is not used: this user may not read it; `tiltrotor devices` says \
+                 what allows it"
+            )),
+            Why::Permission | Why::Broken => {}
         }
     }
     plan.remarks.extend(told);

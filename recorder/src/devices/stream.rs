@@ -9,6 +9,7 @@ use engine::inputs::{DeviceEvent, EventKind};
 use logs::devices::DeviceIdentity;
 use rtrb::{Producer, PushError};
 
+use super::check::clash;
 use super::found::Found;
 use super::matching;
 
@@ -53,7 +54,8 @@ impl Stream {
 
     /// A device that appeared while it is read: its number if the map has it, which it is told then.
     pub fn take_up(&mut self, found: &Found) -> Option<usize> {
-        let number = matching::number_of(&self.map, found, |number| !self.taken[number]);
+        let free = |number: usize| !self.taken[number] && !self.is_rivalled(number);
+        let number = matching::number_of(&self.map, found, free);
         let identity = match number {
             Some(number) => found.identity(number as u64, true),
             None => {
@@ -67,6 +69,14 @@ impl Stream {
             self.plug_in(number, found);
         }
         number
+    }
+
+    /// Whether a device that is there moves what the one of this number would.
+    fn is_rivalled(&self, number: usize) -> bool {
+        let firm =
+            |number: usize| self.map.device[number].axis.iter().filter(|axis| !axis.fallback);
+        let mut others = (0..self.taken.len()).filter(|&other| self.taken[other]).flat_map(firm);
+        others.any(|other| firm(number).any(|axis| clash(axis, other)))
     }
 
     /// A device of the map has gone.

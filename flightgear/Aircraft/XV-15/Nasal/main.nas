@@ -1,4 +1,4 @@
-# Views and fields of view by key, and what other scripts of the package there are.
+# Views and fields of view by key.
 
 # Goes to a view by its name.
 var view_named = func(name) {
@@ -25,6 +25,13 @@ var next_field = func {
     gui.popupTip(sprintf("field of view %d deg", next), 1);
 };
 
-# The heights of FlightGear's ground go back to the flight, where the package has that script.
-var more = getprop("/sim/aircraft-dir") ~ "/Nasal/ground.nas";
-if (io.stat(more) != nil) io.load_nasal(more, "tiltrotor_ground");
+# One of several screens: how far it looks to the left of ahead, deg. All look level, or their edges
+# would not meet.
+var screen_listener = setlistener("/sim/signals/fdm-initialized", func {
+    var heading = getprop("/sim/tiltrotor/screen-heading-deg");
+    if (heading == nil) return;
+    foreach (var place; ["/sim/view[0]/config/", "/sim/current-view/", "/sim/current-view/goal-"]) {
+        setprop(place ~ "heading-offset-deg", heading);
+        setprop(place ~ "pitch-offset-deg", 0);
+    }
+}, 1, 0);

@@ -68,7 +68,7 @@ var clip = func(group, x, y, w, h)
 var sheets = [];
 var sheet = func(name, w, h, scale, background = nil) {
     var made = canvas.new({ name: "XV-15 PFD " ~ name, size: [int(w * scale), int(h * scale)], view: [w, h], mipmapping: 0 });
-    made.setColorBackground(background or [1, 1, 1, 0]);
+    made.setColorBackground(background == nil ? [1, 1, 1, 0] : background);
     append(sheets, made);
     return made;
 };

@@ -6,9 +6,9 @@
 
 use engine::display::Fuselage;
 
-use super::{SIDES, Smooth, fuselage, ring, steps};
+use super::{SIDES, Smooth, fuselage, steps};
 use crate::ac3d::{Part, material};
-use crate::mesh::{Half, Mesh, Point};
+use crate::mesh::{Half, Mesh, Point, ring};
 use crate::paint;
 
 /// Buttline of a seat's middle, m.

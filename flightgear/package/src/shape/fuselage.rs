@@ -3,9 +3,9 @@
 use engine::display::{Fuselage, GearPods};
 use engine::math::{pow_positive, sign};
 
-use super::{Smooth, ring, steps};
+use super::{Smooth, bays, steps};
 use crate::ac3d::{Part, material};
-use crate::mesh::{Half, Mesh, Point, Polygon, Region, outline};
+use crate::mesh::{Half, Mesh, Point, Polygon, Region, outline, ring};
 use crate::paint;
 
 /// Half the width of the windscreen's middle post, m.
@@ -116,10 +116,10 @@ pub fn windows(shape: &Fuselage) -> Vec<Region> {
 /// The bay of the nose gear in the skin.
 pub fn nose_bay() -> Region {
     vec![
-        Half::above(0, super::gear::NOSE_BAY_M[0]),
-        Half::below(0, super::gear::NOSE_BAY_M[1]),
-        Half::above(1, -super::gear::NOSE_BAY_HALF_M),
-        Half::below(1, super::gear::NOSE_BAY_HALF_M),
+        Half::above(0, bays::NOSE_BAY_M[0]),
+        Half::below(0, bays::NOSE_BAY_M[1]),
+        Half::above(1, -bays::NOSE_BAY_HALF_M),
+        Half::below(1, bays::NOSE_BAY_HALF_M),
         Half::below(2, 0.80),
     ]
 }
@@ -200,7 +200,7 @@ pub fn pod(shape: &GearPods) -> (Mesh, Mesh) {
         .collect();
     let mut pod = Mesh::default();
     pod.body(material::WHITE, &rings);
-    let doors = pod.cut(&super::gear::main_bay(shape));
+    let doors = pod.cut(&bays::main_bay(shape));
     pod.paint(
         &outline([0, 2], &[[6.0, 0.9], [11.0, 0.9], [11.0, 1.0], [6.0, 1.0]]),
         material::BLUE,

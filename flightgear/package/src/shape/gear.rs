@@ -7,18 +7,11 @@ use engine::aircraft::Params as Aircraft;
 use engine::display::{GearPods, Wheels};
 use engine::landing_gear::Strut;
 
-use super::{fuselage, ring};
+use super::bays::{MAIN_BAY_HALF_M, MAIN_BAY_M, NOSE_BAY_HALF_M, NOSE_BAY_M, main_bay_middle_m};
+use super::fuselage;
 use crate::ac3d::{Part, material};
-use crate::mesh::{Half, Mesh, Point, Region};
+use crate::mesh::{Half, Mesh, Point, ring};
 
-/// Stations of the nose gear's bay, m.
-pub const NOSE_BAY_M: [f64; 2] = [3.32, 4.52];
-/// Half its width, m.
-pub const NOSE_BAY_HALF_M: f64 = 0.27;
-/// Stations of a main gear's bay, m.
-const MAIN_BAY_M: [f64; 2] = [7.22, 8.62];
-/// Half its width, m.
-const MAIN_BAY_HALF_M: f64 = 0.30;
 /// Waterline of the nose leg's hinge, m.
 const NOSE_HINGE_M: f64 = 0.83;
 /// Waterline of a main leg's hinge, m.
@@ -58,22 +51,6 @@ pub fn legs(aircraft: &Aircraft) -> [Leg; 3] {
         leg("left", 1, &gear.main, &shape.main_wheels, -1.0, MAIN_HINGE_M, -1.0),
         leg("right", 2, &gear.main, &shape.main_wheels, 1.0, MAIN_HINGE_M, -1.0),
     ]
-}
-
-/// The bay in the right pod's skin.
-pub fn main_bay(shape: &GearPods) -> Region {
-    vec![
-        Half::above(0, MAIN_BAY_M[0]),
-        Half::below(0, MAIN_BAY_M[1]),
-        Half::above(1, main_bay_middle_m(shape) - MAIN_BAY_HALF_M),
-        Half::below(1, main_bay_middle_m(shape) + MAIN_BAY_HALF_M),
-        Half::below(2, shape.waterline_m - 0.1),
-    ]
-}
-
-/// The bay is around the leg, as far as the pod is.
-fn main_bay_middle_m(shape: &GearPods) -> f64 {
-    shape.buttline_m + 0.08
 }
 
 /// Where a door turns: a point, and the direction is the aircraft's long axis.

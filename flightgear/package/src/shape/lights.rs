@@ -2,9 +2,9 @@
 
 use engine::aircraft::Params as Aircraft;
 
-use super::{nacelle, ring};
+use super::nacelle;
 use crate::ac3d::{Part, material};
-use crate::mesh::{Mesh, Point, add, sub};
+use crate::mesh::{Mesh, Point, add, ring, sub};
 use crate::paint;
 
 /// A light with the halo that is seen around it.

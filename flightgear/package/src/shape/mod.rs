@@ -3,6 +3,7 @@
 //! Pivots, hubs, rotors, spans, chords and wheels are those that the aircraft is given; what the file
 //! does not have (hinges, doors, the cockpit) is for recognition.
 
+pub mod bays;
 pub mod cockpit;
 pub mod fuselage;
 pub mod gear;
@@ -18,16 +19,6 @@ use crate::mesh::Point;
 
 /// The sides: index and sign of the buttline. The left one is made as the image of the right one.
 pub const SIDES: [(usize, &str, f64); 2] = [(0, "left", -1.0), (1, "right", 1.0)];
-
-/// Points around a circle from its sine and cosine.
-pub fn ring(points: u16, at: impl Fn(f64, f64) -> Point) -> Vec<Point> {
-    (0..points)
-        .map(|i| {
-            let angle_rad = TAU * f64::from(i) / f64::from(points);
-            at(sin(angle_rad), cos(angle_rad))
-        })
-        .collect()
-}
 
 /// `count` + 1 numbers from one to another.
 pub fn steps(from: f64, to: f64, count: u16) -> Vec<f64> {

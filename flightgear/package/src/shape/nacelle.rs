@@ -2,9 +2,9 @@
 
 use engine::aircraft::Params as Aircraft;
 
-use super::{SIDES, Smooth, ring, steps};
+use super::{SIDES, Smooth, steps};
 use crate::ac3d::{Part, material};
-use crate::mesh::{Half, Mesh, Point};
+use crate::mesh::{Half, Mesh, Point, ring};
 
 /// A nacelle's end is bare metal over this length, m.
 const EXHAUST_M: f64 = 0.30;

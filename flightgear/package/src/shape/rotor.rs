@@ -8,9 +8,9 @@
 use engine::aircraft::Params as Aircraft;
 use engine::math::{TAU, cos, max, sin, tan};
 
-use super::{SIDES, front, nacelle, ring, steps};
+use super::{SIDES, front, nacelle, steps};
 use crate::ac3d::{Part, material};
-use crate::mesh::{Half, Mesh, Point};
+use crate::mesh::{Half, Mesh, Point, ring};
 use crate::paint;
 
 /// Tips are painted beyond this part of the radius.
