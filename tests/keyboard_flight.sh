@@ -109,6 +109,7 @@ until $tmux capture-pane -p -t signal | grep -q ' height '; do
     [ $tries -lt 100 ] || { echo "no panel:"; $tmux capture-pane -p -t signal; exit 1; }
     sleep 0.2
 done
+sleep 2
 kill -TERM "$(cat "$folder/process")"
 tries=0
 until [ -s "$folder/terminal2" ]; do
