@@ -3,6 +3,8 @@
 mod command_line;
 mod find;
 mod launch;
+mod moment;
+mod scene;
 
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -11,12 +13,12 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
-use engine::start::Start;
 use recorder::Progress;
 
-pub use command_line::{Moment, Ports, Request};
+pub use command_line::{Ports, Request};
 pub use find::Found;
 pub use launch::Running;
+pub use scene::Scene;
 
 use crate::status::Status;
 
@@ -76,28 +78,6 @@ pub struct HowArgs {
 enum Switch {
     On,
     Off,
-}
-
-/// What FlightGear is to show first.
-#[derive(Clone, Debug, Default)]
-pub struct Scene {
-    /// Where, and in which wind.
-    pub start: Option<Start>,
-    /// When; at noon without.
-    pub moment: Option<Moment>,
-}
-
-impl Scene {
-    /// As a log begins.
-    pub fn of_log(path: &std::path::Path) -> Result<Self> {
-        let reader = logs::open(path, replay::OPEN)
-            .with_context(|| format!("cannot read {}", path.display()))?;
-        let mut start = aircraft::start("scenario.toml", &reader.setup.scenario_toml)?;
-        start.origin = reader.initial.plant.origin;
-        let began = &reader.identity;
-        let began = Moment::of_unix_ns(began.get(logs::Identity::STARTED));
-        Ok(Self { start: Some(start), moment: began })
-    }
 }
 
 /// Finds FlightGear and says or runs its command.
