@@ -234,7 +234,12 @@ fn killed_and_restarted_it_gets_the_newest_picture_and_the_log_is_exact() {
         ["fly", "--pilot", "hover", "--duration", "3", "--flightgear", &place, "--out", text(&log)];
     let arguments = [&arguments[..], &["--ground", "flat"]].concat();
     let mut flying = command(&arguments).arg("--hold").arg("0").spawn().expect("it runs");
-    thread::sleep(Duration::from_secs(1));
+    // Killed well after the flight began, however long that took.
+    let mut seen = 0;
+    let _ = first.listen(|| {
+        seen += 1;
+        seen > 1000
+    });
     drop(first);
     thread::sleep(Duration::from_millis(500));
     let second = FakeFlightGear::at(&place).expect("the same ports");

@@ -130,7 +130,6 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::flightgear::scene::Moment;
 
     fn request() -> Request {
         let scenario = aircraft::DEFAULT_SCENARIO;
@@ -177,15 +176,5 @@ mod tests {
     fn a_shell_understands_it() {
         let words = request().in_a_shell();
         assert!(words.contains("'--fg-aircraft=/a b/flightgear/Aircraft'"), "{words}");
-    }
-
-    #[test]
-    fn the_time_of_day_is_that_of_the_log() {
-        let date = |text: &str| Moment::of_unix_ns(text).map(Moment::date);
-        assert_eq!(date("0"), Some("1970:01:01:00:00:00".into()));
-        assert_eq!(date("1592773261000000000"), Some("2020:06:21:21:01:01".into()));
-        assert_eq!(date("1709164799999999999"), Some("2024:02:28:23:59:59".into()));
-        assert_eq!(date("1709164800000000000"), Some("2024:02:29:00:00:00".into()));
-        assert_eq!(date("yesterday"), None);
     }
 }

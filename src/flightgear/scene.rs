@@ -43,3 +43,16 @@ impl Scene {
         Ok(Self { start: Some(start), moment: began })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_of_day_is_that_of_the_log() {
+        let date = |text: &str| Moment::of_unix_ns(text).map(Moment::date);
+        assert_eq!(date("0"), Some("1970:01:01:00:00:00".into()));
+        assert_eq!(date("1592773261000000000"), Some("2020:06:21:21:01:01".into()));
+        assert_eq!(date("unknown"), None);
+    }
+}
