@@ -67,10 +67,12 @@ mod tests {
         let display = tree(&format!("{FOLDER}/Nasal/pfd.nas"));
         let sounds = tree(&format!("{FOLDER}/Sounds/xv15-sound.xml"));
         let model = tree(&format!("{FOLDER}/Models/xv15.xml"));
-        let moved = between(&model, "<property>tiltrotor/", '<')
-            .chain(between(&sounds, "<property>tiltrotor/", '<'));
-        let shown = between(&display, "node(\"", '"')
-            .chain(between(&display, "works(\"", '"'));
+        let moved = between(&model, "<property>tiltrotor/", '<').chain(between(
+            &sounds,
+            "<property>tiltrotor/",
+            '<',
+        ));
+        let shown = between(&display, "node(\"", '"').chain(between(&display, "works(\"", '"'));
         let mut seen = 0;
         for node in moved.chain(shown) {
             seen += 1;
@@ -81,7 +83,8 @@ mod tests {
 
     #[test]
     fn no_comment_of_xml_holds_what_would_end_it() {
-        for file in ["xv15-set.xml", "Models/xv15.xml", "Sounds/xv15-sound.xml", "Display/pfd.svg"] {
+        for file in ["xv15-set.xml", "Models/xv15.xml", "Sounds/xv15-sound.xml", "Display/pfd.svg"]
+        {
             let text = tree(&format!("{FOLDER}/{file}"));
             for comment in text.split("<!--").skip(1) {
                 let inside = comment.split("-->").next().unwrap_or("");
