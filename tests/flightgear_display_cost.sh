@@ -27,7 +27,7 @@ for view in Pilot "Chase View"; do
         [ "$(property /sim/current-view/name)" != "$view" ] || break
     done
     echo "$view:"
-    python3 tests/flightgear/cost.py "$flightgear" "$http" "$frames" || failed=1
+    python3 tests/flightgear/cost.py "$flightgear" "$http" "$frames" --pairs "${PAIRS:-9}" || failed=1
     stop "$replay"
 done
 no_complaints
