@@ -102,7 +102,7 @@ chmod +x "$root/init"
 (cd "$root" && find . | busybox cpio -o -H newc 2>/dev/null | gzip -1) >"$work/initramfs"
 vmlinuz=$(find "$work/deb/boot" -name 'vmlinuz*' | head -1)
 
-timeout 900 qemu-system-x86_64 -machine q35 -cpu max -accel tcg -smp 2 -m 1024 -nodefaults -no-reboot \
+timeout 1500 qemu-system-x86_64 -machine q35 -cpu max -accel tcg -smp 2 -m 1024 -nodefaults -no-reboot \
     -display none -kernel "$vmlinuz" -initrd "$work/initramfs" \
     -append "console=ttyS0 quiet loglevel=3 panic=-1" \
     -chardev file,id=console,path="$work/console.txt" -serial chardev:console \

@@ -154,6 +154,7 @@ fn joystick_buttons(count: u16) -> Vec<u16> {
 const STICK_10: [Axis; 2] = [(0, 512, 0, 1023), (1, 512, 0, 1023)];
 
 /// A device of what the public lists of capabilities say.
+#[expect(clippy::too_many_lines, reason = "a table")]
 pub fn known(label: &str) -> Fake {
     let with = |axes: &[Axis], hat: bool| {
         let mut axes = axes.to_vec();

@@ -184,7 +184,6 @@ fn one() -> f64 {
     1.0
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
 fn is_one(number: &f64) -> bool {
     number.to_bits() == 1.0_f64.to_bits()
 }
