@@ -244,9 +244,10 @@ fn no_stick_plugged_in_is_told() {
     let (map, out) = (file(&place, "map.toml", map), place.join("flight.mcap"));
     let flight = ["fly", "--stick", "--duration", "1", "--no-flightgear", "--out", text(&out)];
     tiltrotor(&[&flight[..], &["--map", text(&map)]].concat())
-        .refused()
+        .ends(2)
         .says("no stick found")
-        .says("plug one in, or fly with `--pilot hover`");
+        .says("plug one in, write a map for one of these (`tiltrotor devices --map-new FILE`), or fly")
+        .says("with `--pilot hover`");
     assert!(!out.exists());
 }
 

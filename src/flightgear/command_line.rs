@@ -166,7 +166,7 @@ mod tests {
         let mut elsewhere = request();
         let start = elsewhere.scene.start.as_mut().expect("there");
         (start.origin.latitude_rad, start.origin.longitude_rad) = (0.785, 0.13);
-        (start.world.wind_mps, start.world.wind_from_rad) = (5.144, -1.570_8);
+        (start.world.wind_mps, start.world.wind_from_rad) = (5.144, -std::f64::consts::FRAC_PI_2);
         let arguments = elsewhere.arguments();
         assert!(arguments.contains(&"--lat=44.977187".into()), "{arguments:?}");
         assert!(arguments.contains(&"--wind=270@10".into()), "{arguments:?}");

@@ -26,6 +26,9 @@ pub struct Flown {
     pub reader: FlightReader,
 }
 
+/// Device, name and events: type, code, value.
+pub type EventScript<'a> = (&'a str, &'a str, &'a [(u16, u16, i32)]);
+
 /// What a flight is made of.
 #[derive(Default)]
 pub struct Job<'a> {
@@ -34,8 +37,8 @@ pub struct Job<'a> {
     pub devices: &'a [Fake],
     /// Those of them that are there from the start.
     pub there: &'a [&'a str],
-    /// Events beside the sweep: device, name, events.
-    pub scripts: &'a [(&'a str, &'a str, &'a [(u16, u16, i32)])],
+    /// Events beside the sweep.
+    pub scripts: &'a [EventScript<'a>],
     pub plan: &'a [Step<'a>],
     /// The cockpit map; without one, the shipped ones.
     pub map: Option<&'a str>,

@@ -161,8 +161,11 @@ const ROWS: &[(&str, &str, u64)] = &[
     ),
 ];
 
+/// A code of a number.
+type OfNumber = fn(u64) -> Code;
+
 /// What stands before the number of a code without a name.
-const NUMBERED: [(&str, fn(u64) -> Code); 3] = [("ABS_0x", Axis), ("BTN_0x", Key), ("KEY_0x", Key)];
+const NUMBERED: [(&str, OfNumber); 3] = [("ABS_0x", Axis), ("BTN_0x", Key), ("KEY_0x", Key)];
 
 impl Code {
     /// The one of this name, in any case: `ABS_X`, `btn_trigger`, or numbered, `BTN_0x12c`.

@@ -141,7 +141,7 @@ fn assigned(map: &Params, survey: &Survey) -> Vec<Option<usize>> {
         }
     }
     // A stable sort: of equals the first entry has the first device.
-    pairs.sort_by(|one, other| other.0.cmp(&one.0));
+    pairs.sort_by_key(|pair| std::cmp::Reverse(pair.0));
     let mut of_entries = vec![None; map.device.len()];
     for (_, number, at) in pairs {
         if of_entries[number].is_none() && !of_entries.contains(&Some(at)) {
