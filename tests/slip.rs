@@ -84,6 +84,8 @@ fn flight(log: &Path, seconds: &str) -> (Child, Picture) {
         "hover",
         "--duration",
         seconds,
+        "--ground",
+        "flat",
         "--flightgear",
         &address,
         "--out",

@@ -54,9 +54,9 @@ const RECORDED: [Recorded; 6] = [
     Recorded { kind: Kind::Flown, first: 0x17a8_ce8b_9d2b_4d18, all: 0xe172_2d01_567d_16cf },
     Recorded { kind: Kind::Envelope, first: 0x037c_a224_ecf7_26cb, all: 0x7108_7719_4fd1_46ee },
     Recorded { kind: Kind::Stalled, first: 0xebaf_bc9b_fae8_1436, all: 0xd7b3_e874_d4a9_dc04 },
-    Recorded { kind: Kind::Zeros, first: 0xb735_0593_05d9_5b4d, all: 0x4152_aa0e_5de0_1c59 },
-    Recorded { kind: Kind::Beyond, first: 0xbb39_cce5_8f9c_2eb7, all: 0xdf94_41f2_1a71_b75b },
-    Recorded { kind: Kind::Broken, first: 0x652a_eab1_48aa_ea8a, all: 0x7fd1_6ef8_ab88_4c3f },
+    Recorded { kind: Kind::Zeros, first: 0xb735_0593_05d9_5b4d, all: 0x6b37_7d2d_eb60_4ab3 },
+    Recorded { kind: Kind::Beyond, first: 0xc00a_7755_a10d_e3b9, all: 0x6ba9_5f4b_36a1_2f41 },
+    Recorded { kind: Kind::Broken, first: 0x652a_eab1_48aa_ea8a, all: 0xb3e2_26a3_c076_7168 },
 ];
 
 /// The bits of what has been seen so far (FNV-1a, by words of eight bytes).
