@@ -92,8 +92,17 @@ impl Flight {
         let picture = UdpSocket::bind("127.0.0.1:0").expect("a socket");
         picture.set_read_timeout(Some(Duration::from_secs(30))).expect("a timeout");
         let destination = picture.local_addr().expect("a bound socket").to_string();
-        let arguments =
-            ["fly", "--pilot", "hover", "--flightgear", &destination, "--out", text(&log)];
+        let arguments = [
+            "fly",
+            "--pilot",
+            "hover",
+            "--ground",
+            "flat",
+            "--flightgear",
+            &destination,
+            "--out",
+            text(&log),
+        ];
         let program = command(&arguments)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
