@@ -1,12 +1,15 @@
 //! `tiltrotor replay`.
 
+mod keys;
+
 use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use engine::{Aircraft, STEP_S};
 use flightgear::{Hold, Lamps, Link, Picture};
+use indicatif::{ProgressBar, ProgressStyle};
 use recorder::Pace;
-use replay::judgement::disorder;
+use replay::judgement::{disorder, judge};
 use replay::playback::{Frame, Moment};
 use replay::{Facts, Playback, Reflown, ReflyOptions, ReplayError, Window};
 
@@ -16,6 +19,7 @@ use crate::numbers::between;
 use crate::report;
 use crate::status::Status;
 use crate::window::{When, WindowArgs};
+use keys::Keys;
 
 /// What to refly, and where to show it.
 #[derive(clap::Args)]
@@ -58,34 +62,42 @@ pub fn run(args: &Args) -> Result<Status> {
     // Kept to the end: with it ends a FlightGear that was started for this.
     let mut linked = args.link.open(false, false, || Scene::of_log(&log))?;
     let link = linked.as_mut().map(|linked| std::mem::take(&mut linked.link));
-    let mut showing = Showing {
-        facts: Facts::of_reflight(&playback.flight),
-        playback,
-        link,
-        last: None,
-        start,
-        ticks: 0,
-        told: false,
-        slipped_ns: 0,
-    };
+    let mut showing = Showing::of(playback, link)?;
     let disorder = match showing.run() {
         Ok(()) => None,
         Err(error) => Some(disorder(error)?),
     };
-    let Showing { mut playback, mut facts, link, last, ticks, slipped_ns, .. } = showing;
+    let Showing {
+        mut playback,
+        mut facts,
+        link,
+        last,
+        ticks,
+        slipped_ns,
+        keys,
+        told,
+        stopped,
+        bar,
+        ..
+    } = showing;
+    bar.finish_and_clear();
+    drop(keys);
+    let whole = playback.is_whole() || disorder.is_some();
     // While the rest is said and judged, the last picture stays.
     let sent = link.as_ref().map(Link::sent).unwrap_or_default();
     let hold = link
         .filter(|link| !link.nobody_listens())
         .zip(last)
         .map(|(link, last)| Hold::start(link, last));
-    facts.end_of_reflight(&mut playback.flight, disorder, &window);
+    if whole {
+        facts.end_of_reflight(&mut playback.flight, disorder, &window);
+    }
     say!(
         "{}: {:.1} s reflown from {:.3} s on at {} times real time",
         args.log.display(),
         ticks as f64 * STEP_S,
         start as f64 * STEP_S,
-        args.speed,
+        playback.speed(),
     );
     for words in link_args::in_words(&sent) {
         say!("{words}");
@@ -96,13 +108,15 @@ pub fn run(args: &Args) -> Result<Status> {
     if let Some(versions) = &playback.flight.versions() {
         say!("{versions}");
     }
-    let judgement = facts.judge();
+    // Of what was not shown from beginning to end, only reading says what it is.
+    let judgement = if whole { facts.judge() } else { judge(&args.log, &window) };
     say!("{judgement}");
-    if let Some(hold) = hold {
+    if let Some(hold) = hold.filter(|_| !stopped) {
         let link = if args.at.is_some() { &args.link.or_forever() } else { &args.link };
         link.keep(hold)?;
     }
-    Ok(Status::from(&judgement))
+    let status = Status::from(&judgement);
+    Ok(if told && !whole { Status::gravest([status, Status::Differs]) } else { status })
 }
 
 /// A log being shown.
@@ -119,33 +133,80 @@ struct Showing {
     /// Whether it has been said that it is not the recorded flight.
     told: bool,
     slipped_ns: u64,
+    /// Where somebody sits at a terminal.
+    keys: Option<Keys>,
+    /// Whether it was ended by a key.
+    stopped: bool,
+    /// Where it is, in a line.
+    bar: ProgressBar,
 }
 
 impl Showing {
+    /// At its beginning, with the keys of the terminal if there is one.
+    fn of(playback: Playback, link: Option<Link>) -> Result<Self> {
+        let keys = Keys::take();
+        if keys.is_some() {
+            complain!("{}\r", keys::HELP);
+        }
+        Ok(Self {
+            facts: Facts::of_reflight(&playback.flight),
+            start: playback.flight.state.tick,
+            playback,
+            link,
+            last: None,
+            ticks: 0,
+            told: false,
+            slipped_ns: 0,
+            keys,
+            stopped: false,
+            bar: ProgressBar::new_spinner().with_style(ProgressStyle::with_template("{msg}")?),
+        })
+    }
+
     /// Shows frame after frame until the log is over.
     fn run(&mut self) -> Result<(), ReplayError> {
         let mut pace = Pace::starting_now();
-        for number in 0.. {
+        // Where keys come one by one, a line does not begin at the left by itself.
+        let end = if self.keys.is_some() { "\r" } else { "" };
+        let mut number = 0;
+        loop {
             let woken = pace.wait(number);
+            number += 1;
             if woken.slip_ns > 0 {
                 self.slipped_ns += woken.slip_ns;
-                complain!("tiltrotor: {}", recorder::writer::slipped(woken.slip_ns));
+                let slipped = recorder::writer::slipped(woken.slip_ns);
+                self.bar.suspend(|| complain!("tiltrotor: {slipped}{end}"));
             }
-            let Self { playback, facts, ticks, told, start, .. } = self;
+            let key = self.keys.as_ref().and_then(Keys::next);
+            let Self { playback, facts, ticks, told, start, bar, .. } = self;
             let mut watch = |reflown: &Reflown<'_>| {
                 facts.add(reflown.recorded, Some(reflown.exact));
                 *ticks += 1;
                 if !reflown.exact && !std::mem::replace(told, true) {
-                    complain!(
-                        "tiltrotor: from {:.3} s on this is not the recorded flight; `tiltrotor \
-                         verify` says more",
-                        (*start + *ticks) as f64 * STEP_S
-                    );
+                    let from_s = reflown.outputs.tick as f64 * STEP_S;
+                    bar.suspend(|| {
+                        complain!(
+                            "tiltrotor: from {from_s:.3} s on this is not the recorded flight; \
+                             `tiltrotor verify` says more{end}"
+                        );
+                    });
                 }
             };
-            if playback.frame(&mut watch)?.is_none() {
+            if let Some(key) = key {
+                let Some(command) = key.command(playback, *start) else {
+                    self.stopped = true;
+                    break;
+                };
+                playback.obey(command, &mut watch)?;
+                // To fly there took time that nobody has to catch up.
+                (pace, number) = (Pace::starting_now(), 0);
+            }
+            // At the end, whoever has keys may go back.
+            if playback.frame(&mut watch)?.is_none() && self.keys.is_none() {
                 break;
             }
+            self.show_place(number);
+            let Self { playback, .. } = self;
             let picture =
                 picture(&playback.flight.aircraft, &playback.shown(), playback.is_paused());
             if let Some(link) = &mut self.link {
@@ -154,6 +215,21 @@ impl Showing {
             self.last = Some(picture);
         }
         Ok(())
+    }
+
+    /// Says where it is, ten times a second.
+    fn show_place(&self, frame: u64) {
+        if self.keys.is_none() || !frame.is_multiple_of(25) {
+            return;
+        }
+        let (playback, paused) = (&self.playback, self.playback.is_paused());
+        let how = match (playback.has_ended(), paused) {
+            (true, _) => "the end: Home goes back, Q ends".into(),
+            (_, true) => "paused".into(),
+            _ => format!("{} times real time", playback.speed()),
+        };
+        self.bar.set_message(format!("{:9.3} s  {how}", playback.tick() * STEP_S));
+        self.bar.tick();
     }
 }
 

@@ -121,6 +121,37 @@ done
 grep -q 'end        ended by a signal: SIGTERM' "$folder/said2"
 grep -qE '[^-]icanon' "$folder/terminal2" && grep -qE '[^-]echo ' "$folder/terminal2"
 "$program" verify "$folder/signal.mcap"
+
+# A replay has keys: it stands still, goes a tick at a time, back to the beginning, and ends when told.
+$tmux new-session -d -s replay -x 100 -y 32 "cd $folder && \
+    $program replay flight.mcap --no-flightgear >said3; echo \$? >status3; stty -a >terminal3; sleep 5"
+shows() {
+    tries=0
+    until $tmux capture-pane -p -t replay | grep -qE "$1"; do
+        tries=$((tries + 1))
+        [ $tries -lt 100 ] || { echo "the replay does not show: $1"; $tmux capture-pane -p -t replay; exit 1; }
+        sleep 0.2
+    done
+}
+at() { $tmux capture-pane -p -t replay | sed -n 's/^ *\([0-9.]*\) s  .*/\1/p' | tail -1; }
+shows ' times real time'
+$tmux send-keys -t replay Space
+shows ' s  paused'
+stood=$(at)
+$tmux send-keys -t replay Right Right Left
+shows "$(awk -v s="$stood" 'BEGIN { printf "%.3f", s + 0.004 }') s  paused"
+$tmux send-keys -t replay Home
+shows '0\.004 s  paused'
+$tmux send-keys -t replay Q
+tries=0
+until [ -s "$folder/terminal3" ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || { echo "the replay does not end"; exit 1; }
+    sleep 0.2
+done
+[ "$(cat "$folder/status3")" = 0 ]
+grep -q '^not reflown: ' "$folder/said3"
+grep -qE '[^-]icanon' "$folder/terminal3" && grep -qE '[^-]echo ' "$folder/terminal3"
 if [ -n "${PICTURE:-}" ]; then cp "$folder/picture" "$PICTURE"; fi
 if [ -n "${LOG:-}" ]; then cp "$folder/flight.mcap" "$LOG"; fi
-echo "flown by keyboard: took off, hovered, landed; verified exact"
+echo "flown by keyboard: took off, hovered, landed; verified exact; replayed by keys"

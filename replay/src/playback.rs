@@ -101,9 +101,15 @@ impl Playback {
         self.speed
     }
 
-    /// Whether ticks were left out or shown again: then what was reflown is not the whole of it.
-    pub fn has_jumped(&self) -> bool {
-        self.jumped
+    /// Whether the log or the window is over.
+    pub fn has_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Whether every tick was reflown once, to the end of the log or of the window: only then what was
+    /// reflown tells what the log is.
+    pub fn is_whole(&self) -> bool {
+        self.ended && !self.jumped
     }
 
     /// Does what is asked; `watch` is shown every tick that is reflown for it.
