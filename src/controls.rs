@@ -51,6 +51,7 @@ pub fn keyboard() -> Vec<String> {
 }
 
 /// The controls of a device, in words.
+#[cfg_attr(not(feature = "sticks"), expect(dead_code, reason = "no device is read"))]
 pub fn moved(device: &Device) -> String {
     let axes = device.axis.iter().map(|axis| axis.control.facts().words);
     let buttons = device.button.iter().map(|button| button.control.facts().words);

@@ -163,6 +163,7 @@ where
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
         // After the other threads have begun: what is claimed is for the loop.
+        #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to read"))]
         let mut refused =
             flight.real_time.map_or_else(Vec::new, |wanted| claim_real_time(wanted.cpu));
         #[cfg(feature = "sticks")]

@@ -204,6 +204,7 @@ impl Progress {
     }
 
     /// Devices that came or went.
+    #[cfg_attr(not(feature = "sticks"), expect(dead_code, reason = "none is read"))]
     pub(crate) fn devices(&self, events: &[DeviceEvent]) {
         for event in events.iter().filter(|event| event.device < 64) {
             let bit = 1 << event.device;
