@@ -41,10 +41,12 @@ print(f"recovered: {messages} messages, all read")
 PYTHON
 
 # rosbags decodes every channel by the ROS 2 package that is generated from the log's own definitions.
-"$tiltrotor" fly --pilot hover --fast --duration 3 --out "$work/hover.mcap"
-"$venv/bin/python" docs/ros2/generate.py "$work/hover.mcap" "$work"
-"$venv/bin/python" tests/rosbags_cdr.py "$work/hover.mcap" "$tiltrotor" "$work/tiltrotor_msgs"
+printf '[[event]]\nat_s = 2.0\nrestart = "start"\n' >"$work/restart.toml"
+"$tiltrotor" fly --pilot hover --script "$work/restart.toml" --fast --duration 3 --out "$work/again.mcap"
+"$venv/bin/python" docs/ros2/generate.py "$work/again.mcap" "$work"
+"$venv/bin/python" tests/rosbags_cdr.py "$work/again.mcap" "$tiltrotor" "$work/tiltrotor_msgs"
 
 # Logs that other tools wrote anew: the same flight, or refused for the same true reason by every verb.
 mkdir "$work/tools"
+"$tiltrotor" fly --pilot hover --fast --duration 3 --out "$work/hover.mcap"
 "$venv/bin/python" tests/tools.py "$work/hover.mcap" "$tiltrotor" "$work/tools"

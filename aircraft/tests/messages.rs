@@ -428,13 +428,13 @@ fn a_code_that_is_none() {
     let code = "an event code, by the kernel's name or its number, or an array of them";
     let beyond = "an event code is from 0 to 0xffff".to_string();
     for (written, told) in [
-        ("-1", beyond.clone()),
-        ("65536", beyond),
-        ("1.5", format!("expected {code}, found floating point `1.5`")),
-        ("true", format!("expected {code}, found boolean `true`")),
+        ("-1", format!(".code: {beyond}")),
+        ("65536", format!(".code: {beyond}")),
+        ("1.5", format!(": expected {code}, found floating point `1.5`")),
+        ("true", format!(": expected {code}, found boolean `true`")),
         (
             "\"BTN_EJECT\"",
-            "`BTN_EJECT` is no axis and no button that is known: write it as `tiltrotor devices` shows \
+            ".code: `BTN_EJECT` is no axis and no button that is known: write it as `tiltrotor devices` shows \
              it, ABS_X or BTN_TRIGGER, or numbered, ABS_0x2a or BTN_0x12c"
                 .into(),
         ),
@@ -443,7 +443,7 @@ fn a_code_that_is_none() {
             "[[device]]\nname = \"s\"\nbutton = [{{ code = {written}, control = \"marker\" }}]"
         );
         let error = aircraft::cockpit("stick.toml", &map).unwrap_err();
-        assert_eq!(error.to_string(), format!("stick.toml:3: device[0].button[0].code: {told}"));
+        assert_eq!(error.to_string(), format!("stick.toml:3: device[0].button[0]{told}"));
     }
 }
 
