@@ -24,6 +24,7 @@ pub struct Args {
     seconds: f64,
     /// Keep the tried loop on this processor, counted from 0
     #[arg(long, value_name = "N")]
+    #[arg(value_parser = crate::numbers::processor, allow_negative_numbers = true)]
     cpu: Option<usize>,
     /// Where flights will be recorded: its disk is tried
     #[arg(long, value_name = "FOLDER", default_value = ".")]

@@ -30,7 +30,7 @@ pub struct Args {
     /// The port of FlightGear's own packets; the second channel is at the next one, and what FlightGear
     /// tells goes to the one after that
     #[arg(long, default_value_t = 5501)]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=65533))]
+    #[arg(value_parser = crate::numbers::port, allow_negative_numbers = true)]
     port: u16,
     /// The address at which it listens: 0.0.0.0 for flights on other machines
     #[arg(long, default_value_t = Ipv4Addr::LOCALHOST)]

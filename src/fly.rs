@@ -81,6 +81,7 @@ pub struct Args {
     spin_us: f64,
     /// Keep the loop on this processor, counted from 0
     #[arg(long, value_name = "N")]
+    #[arg(value_parser = crate::numbers::processor, allow_negative_numbers = true)]
     cpu: Option<usize>,
     /// Show a line of progress instead of the panel
     #[arg(long, conflicts_with = "keyboard")]

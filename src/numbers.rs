@@ -45,6 +45,28 @@ pub fn rotor_rpm(text: &str) -> Result<f64, String> {
     between(0.0, 2_000.0, "rpm")(text)
 }
 
+/// Reads a whole number from `least` to `greatest`, of what is counted.
+pub fn whole(
+    least: u64,
+    greatest: u64,
+    of: &'static str,
+) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| match text.parse() {
+        Ok(number) if (least..=greatest).contains(&number) => Ok(number),
+        _ => Err(format!("expected a whole number from {least} to {greatest}: {of}")),
+    }
+}
+
+/// Reads the number of a processor.
+pub fn processor(text: &str) -> Result<usize, String> {
+    whole(0, 1023, "a processor's number")(text).map(|number| number as usize)
+}
+
+/// Reads a UDP port that has two more after it.
+pub fn port(text: &str) -> Result<u16, String> {
+    whole(1, 65_533, "a port that has two more after it")(text).map(|number| number as u16)
+}
+
 /// Reads a duration of a tick or more.
 pub fn duration_s(text: &str) -> Result<f64, String> {
     between(engine::STEP_S, 1e7, "s")(text)

@@ -46,6 +46,9 @@ fn verbs(log: &str) -> Vec<(Vec<&'static str>, Vec<String>)> {
         (vec!["log", "compact"], log()),
         (vec!["log", "expand"], log()),
         (vec!["log", "recover"], log()),
+        (vec!["devices"], vec![]),
+        (vec!["doctor"], vec![]),
+        (vec!["flightgear"], vec!["--print".into()]),
         (vec!["trim"], vec![]),
         (vec!["linearize"], vec![]),
     ]

@@ -18,7 +18,7 @@ use logs::output::Output;
 use logs::records::{InputsRecord, RestartRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Observed};
 
-use crate::clock::{Pace, Woken, now_ns, wall_ns};
+use crate::clock::{Pace, RealTime, Woken, now_ns, wall_ns};
 use crate::crew::Crew;
 use crate::debrief::Debrief;
 use crate::end::End;
@@ -35,6 +35,11 @@ use crate::writer::{Recording, Saver, ToRecord};
 const EVENTS_A_TICK: usize = 1024;
 /// Ticks between two looks at everything for whoever shows it: 25 a second.
 const SHOWN_TICKS: u64 = 10;
+
+/// Claims real time for this thread, if the flight wants it; returns what was not granted.
+fn claim(real_time: Option<RealTime>) -> Vec<String> {
+    real_time.map_or_else(Vec::new, |wanted| claim_real_time(wanted.cpu))
+}
 
 /// Number and name of a phase of the flight.
 type Phase = (u64, &'static str);
@@ -163,11 +168,10 @@ where
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
         // After the other threads have begun: what is claimed is for the loop.
-        #[cfg_attr(not(feature = "sticks"), expect(unused_mut, reason = "no device to read"))]
-        let mut refused =
-            flight.real_time.map_or_else(Vec::new, |wanted| claim_real_time(wanted.cpu));
+        let refused = claim(flight.real_time);
         #[cfg(feature = "sticks")]
-        refused.extend(flight.sticks.iter_mut().flat_map(|sticks| sticks.refused.drain(..)));
+        let refused =
+            flight.sticks.iter().flat_map(|it| it.refused.clone()).chain(refused).collect();
         let outputs = observe(&aircraft, &state, &world);
         recording.show(&outputs, state.plant.attitude);
         let crew = Crew::new(flight.hands, world_of_start);
