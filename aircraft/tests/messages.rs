@@ -430,11 +430,11 @@ fn a_code_that_is_none() {
     for (written, told) in [
         ("-1", format!(".code: {beyond}")),
         ("65536", format!(".code: {beyond}")),
-        ("1.5", format!(": expected {code}, found floating point `1.5`")),
+        ("1.5", format!(".code: expected {code}, found floating point `1.5`")),
         ("true", format!(": expected {code}, found boolean `true`")),
         (
             "\"BTN_EJECT\"",
-            ".code: `BTN_EJECT` is no axis and no button that is known: write it as `tiltrotor devices` shows \
+            ": `BTN_EJECT` is no axis and no button that is known: write it as `tiltrotor devices` shows \
              it, ABS_X or BTN_TRIGGER, or numbered, ABS_0x2a or BTN_0x12c"
                 .into(),
         ),
