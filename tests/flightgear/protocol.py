@@ -276,7 +276,7 @@ def main():
     for words in wrong[:5]:
         print("  " + words)
     assert not wrong, f"{len(wrong)} frames"
-    assert len(frames) >= 60 and whole >= 0.8 * len(frames), "frames of one tick"
+    assert len(frames) >= 60 and whole >= 0.9 * len(frames), "frames of one tick"
     assert torn <= 0.05 * len(frames), "frames after a stall"
     assert place_m < 0.01 and log_m < 0.01, "a centimetre"
     assert all(a <= b for a, b in zip(shown, shown[1:])), "never backwards"
