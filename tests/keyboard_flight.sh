@@ -23,6 +23,17 @@ $tmux new-session -d -s flight -x 100 -y 32 \
 
 key() { $tmux send-keys -t flight "$@"; }
 picture() { $tmux capture-pane -p -t flight; }
+shows() { $tmux capture-pane -p -t "$1" | grep -qE "$2"; }
+# Waits for a condition, twenty seconds at most.
+await() {
+    session=$1 tries=0
+    shift
+    until "$@"; do
+        tries=$((tries + 1))
+        [ $tries -lt 100 ] || { echo "waited in vain for: $*"; $tmux capture-pane -p -t "$session" || true; exit 1; }
+        sleep 0.2
+    done
+}
 # Height, climb, forward speed, pitch and roll as the panel shows them.
 read_panel() {
     shown=$(picture)
@@ -46,12 +57,7 @@ steer() {
     sleep 0.4
 }
 
-tries=0
-until picture | grep -q ' height '; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || { echo "no panel:"; picture; exit 1; }
-    sleep 0.2
-done
+await flight shows flight ' height '
 
 key k # the parking brake, off
 for _ in $(seq 9); do key w; sleep 0.05; done # where the stick is in a hover
@@ -83,12 +89,7 @@ for _ in $(seq 50); do key PageDown; sleep 0.03; done
 key k # the parking brake, set
 sleep 3
 key Q
-tries=0
-until [ -s "$folder/status" ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || { echo "it does not end:"; picture; exit 1; }
-    sleep 0.2
-done
+await flight [ -s "$folder/status" ]
 cat "$folder/said"
 # The terminal is as it was.
 sleep 1
@@ -103,20 +104,10 @@ if grep -qE "HARD|hull" "$folder/said"; then echo "that was no landing"; exit 1;
 $tmux new-session -d -s signal -x 100 -y 32 "cd $folder && \
     sh -c 'echo \$\$ >process; exec $program fly --keyboard --no-flightgear --out signal.mcap >said2'; \
     echo \$? >status2; stty -a >terminal2; sleep 5"
-tries=0
-until $tmux capture-pane -p -t signal | grep -q ' height '; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || { echo "no panel:"; $tmux capture-pane -p -t signal; exit 1; }
-    sleep 0.2
-done
+await signal shows signal ' height '
 sleep 2
 kill -TERM "$(cat "$folder/process")"
-tries=0
-until [ -s "$folder/terminal2" ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || { echo "it does not end by a signal:"; exit 1; }
-    sleep 0.2
-done
+await signal [ -s "$folder/terminal2" ]
 [ "$(cat "$folder/status2")" = 0 ]
 grep -q 'end        ended by a signal: SIGTERM' "$folder/said2"
 grep -qE '[^-]icanon' "$folder/terminal2" && grep -qE '[^-]echo ' "$folder/terminal2"
@@ -125,30 +116,17 @@ grep -qE '[^-]icanon' "$folder/terminal2" && grep -qE '[^-]echo ' "$folder/termi
 # A replay has keys: it stands still, goes a tick at a time, back to the beginning, and ends when told.
 $tmux new-session -d -s replay -x 100 -y 32 "cd $folder && \
     $program replay flight.mcap --no-flightgear >said3; echo \$? >status3; stty -a >terminal3; sleep 5"
-shows() {
-    tries=0
-    until $tmux capture-pane -p -t replay | grep -qE "$1"; do
-        tries=$((tries + 1))
-        [ $tries -lt 100 ] || { echo "the replay does not show: $1"; $tmux capture-pane -p -t replay; exit 1; }
-        sleep 0.2
-    done
-}
 at() { $tmux capture-pane -p -t replay | sed -n 's/^ *\([0-9.]*\) s  .*/\1/p' | tail -1; }
-shows ' times real time'
+await replay shows replay ' times real time'
 $tmux send-keys -t replay Space
-shows ' s  paused'
+await replay shows replay ' s  paused'
 stood=$(at)
 $tmux send-keys -t replay Right Right Left
-shows "$(awk -v s="$stood" 'BEGIN { printf "%.3f", s + 0.004 }') s  paused"
+await replay shows replay "$(awk -v s="$stood" 'BEGIN { printf "%.3f", s + 0.004 }') s  paused"
 $tmux send-keys -t replay Home
-shows '0\.004 s  paused'
+await replay shows replay '0\.004 s  paused'
 $tmux send-keys -t replay Q
-tries=0
-until [ -s "$folder/terminal3" ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || { echo "the replay does not end"; exit 1; }
-    sleep 0.2
-done
+await replay [ -s "$folder/terminal3" ]
 [ "$(cat "$folder/status3")" = 0 ]
 grep -q '^not reflown: ' "$folder/said3"
 grep -qE '[^-]icanon' "$folder/terminal3" && grep -qE '[^-]echo ' "$folder/terminal3"
