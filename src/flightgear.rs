@@ -12,6 +12,7 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
+use flightgear::link::REPORT_PORT;
 use recorder::Progress;
 
 pub use command_line::{Ports, Request};
@@ -27,8 +28,8 @@ pub struct Args {
     /// Only say the command line
     #[arg(long)]
     print: bool,
-    /// The port of FlightGear's own packets; the second channel is at the next one, and what FlightGear
-    /// tells goes to the one after that
+    /// The port of FlightGear's own packets; the second channel is at the next one, what FlightGear
+    /// tells goes to the one after that, and the port after that one is for a second aircraft
     #[arg(long, default_value_t = 5501)]
     #[arg(value_parser = crate::numbers::port, allow_negative_numbers = true)]
     port: u16,
@@ -90,14 +91,17 @@ pub fn run(args: &Args) -> Result<Status> {
             Scene { start: Some(aircraft::start(&name, &text)?), moment: None }
         }
     };
-    let ports = Ports { port: args.port, listen: args.listen, tell: (args.tell, args.port + 2) };
+    let ports =
+        Ports { port: args.port, listen: args.listen, tell: (args.tell, args.port + REPORT_PORT) };
     let request = args.how.request(&scene, ports)?;
     if args.print {
         say!("{}", request.in_a_shell());
         return Ok(Status::Done);
     }
-    let receiver = flightgear::Receiver::open(IpAddr::V4(args.tell), args.port + 2)
-        .with_context(|| format!("port {} is taken: a flight is under way?", args.port + 2))?;
+    let receiver = flightgear::Receiver::open(IpAddr::V4(args.tell), args.port + REPORT_PORT)
+        .with_context(|| {
+            format!("port {} is taken: a flight is under way?", args.port + REPORT_PORT)
+        })?;
     let mut running = Running::start(&request)?;
     complain!(
         "FlightGear starts; the first time it takes minutes. What it says: {}",

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
+use flightgear::link::{CHANNEL_PORT, GHOST_PORT, REPORT_PORT};
 use flightgear::{DEFAULT_DESTINATION, Hold, Link, Listener, Receiver, Sent};
 use recorder::Progress;
 
@@ -125,7 +126,7 @@ impl Linked {
     /// Listens to what the first FlightGear tells, two ports after its own.
     fn listen(&mut self, needed: bool) -> Result<()> {
         let Some(first) = self.first() else { return Ok(()) };
-        let Some(port) = first.port().checked_add(2) else { return Ok(()) };
+        let Some(port) = first.port().checked_add(REPORT_PORT) else { return Ok(()) };
         match Receiver::open(first.ip(), port) {
             Ok(receiver) => self.receiver = Some(Arc::new(receiver)),
             Err(error) if needed => {
@@ -178,7 +179,13 @@ pub fn in_words(sent: &[Sent]) -> Vec<String> {
                 "; nobody listens at the port after it: without --generic=socket,in,60,{},{},udp,tiltrotor \
                  nacelles, rotors and instruments do not move",
                 destination.ip(),
-                destination.port().saturating_add(1)
+                destination.port().saturating_add(CHANNEL_PORT)
+            ),
+            Listener::NoGhost => format!(
+                "; nobody listens at port {ghost}: without --generic=socket,in,60,{},{ghost},udp,tiltrotor-ghost \
+                 there is no second aircraft",
+                destination.ip(),
+                ghost = destination.port().saturating_add(GHOST_PORT)
             ),
         };
         format!("{sent} pictures sent to {destination}, {dropped} not{known}")

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use engine::{Aircraft, STEP_S};
-use flightgear::{Hold, Lamps, Link, Picture};
+use flightgear::{Channel, Hold, Lamps, Link, Picture};
 use indicatif::{ProgressBar, ProgressStyle};
 use recorder::Pace;
 use replay::judgement::{disorder, judge};
@@ -34,6 +34,14 @@ pub struct Args {
     speed: f64,
     #[command(flatten)]
     window: WindowArgs,
+    /// Show a second XV-15 beside the first: another log, at the same time since its beginning
+    #[arg(long, value_name = "LOG")]
+    ghost: Option<PathBuf>,
+    /// Show the second XV-15 so many seconds further in its flight than the first, or less for a negative
+    /// number
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, requires = "ghost")]
+    #[arg(value_parser = between(-86_400.0, 86_400.0, "s"), allow_negative_numbers = true)]
+    ghost_ahead: f64,
     /// Show this moment and stand still, until Ctrl-C or for --hold seconds
     #[arg(long, value_name = "WHEN", allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["from", "until", "around", "across_versions"])]
@@ -55,14 +63,21 @@ impl Args {
 pub fn run(args: &Args) -> Result<Status> {
     let window = args.window()?;
     let options = ReflyOptions { window, across_versions: args.across_versions };
-    let playback = Playback::open(&args.log, &options, args.speed)
-        .map_err(|error| anyhow!("{}: {}", args.log.display(), report::refusal(&error)))?;
+    let open = |log: &PathBuf, window| {
+        Playback::open(log, &ReflyOptions { window, ..options }, args.speed)
+            .map_err(|error| anyhow!("{}: {}", log.display(), report::refusal(&error)))
+    };
+    let playback = open(&args.log, window)?;
+    // Which part of it is shown, the first one says.
+    let ghost = args.ghost.as_ref().map(|log| open(log, Window::default())).transpose()?;
+    let ahead_ticks = args.ghost_ahead / STEP_S;
+    let ghost = ghost.map(|playback| Ghost { playback, ahead_ticks });
     let start = playback.flight.state.tick;
     let log = args.log.clone();
     // Kept to the end: with it ends a FlightGear that was started for this.
     let mut linked = args.link.open(false, false, || Scene::of_log(&log))?;
     let link = linked.as_mut().map(|linked| std::mem::take(&mut linked.link));
-    let mut showing = Showing::of(playback, link)?;
+    let mut showing = Showing::of(playback, ghost, link)?;
     let disorder = match showing.run() {
         Ok(()) => None,
         Err(error) => Some(disorder(error)?),
@@ -122,6 +137,8 @@ pub fn run(args: &Args) -> Result<Status> {
 /// A log being shown.
 struct Showing {
     playback: Playback,
+    /// Another log, beside it.
+    ghost: Option<Ghost>,
     link: Option<Link>,
     /// The picture that was sent last.
     last: Option<Picture>,
@@ -143,7 +160,7 @@ struct Showing {
 
 impl Showing {
     /// At its beginning, with the keys of the terminal if there is one.
-    fn of(playback: Playback, link: Option<Link>) -> Result<Self> {
+    fn of(playback: Playback, ghost: Option<Ghost>, link: Option<Link>) -> Result<Self> {
         let keys = Keys::take();
         if keys.is_some() {
             complain!("{}\r", keys::HELP);
@@ -152,6 +169,7 @@ impl Showing {
             facts: Facts::of_reflight(&playback.flight),
             start: playback.flight.state.tick,
             playback,
+            ghost,
             link,
             last: None,
             ticks: 0,
@@ -207,8 +225,11 @@ impl Showing {
             }
             self.show_place(number);
             let Self { playback, .. } = self;
-            let picture =
-                picture(&playback.flight.aircraft, &playback.shown(), playback.is_paused());
+            let paused = playback.is_paused();
+            let mut picture = picture(&playback.flight.aircraft, &playback.shown(), paused);
+            if let Some(ghost) = &mut self.ghost {
+                picture.ghost = Some(ghost.beside(playback.tick())?);
+            }
             if let Some(link) = &mut self.link {
                 link.send(&picture);
             }
@@ -244,5 +265,21 @@ fn picture(aircraft: &Aircraft, frame: &Frame<'_>, paused: bool) -> Picture {
         Picture::between(&of(frame.before), &of(frame.after), frame.part)
     } else {
         of(frame.after)
+    }
+}
+
+/// Another log, shown beside the first.
+struct Ghost {
+    playback: Playback,
+    /// How much further it is in its flight.
+    ahead_ticks: f64,
+}
+
+impl Ghost {
+    /// What is to be seen of it when the first one has come to a tick.
+    fn beside(&mut self, tick: f64) -> Result<Channel, ReplayError> {
+        let Self { playback, ahead_ticks } = self;
+        playback.follow(tick + *ahead_ticks, &mut |_| {})?;
+        Ok(picture(&playback.flight.aircraft, &playback.shown(), playback.is_paused()).channel)
     }
 }

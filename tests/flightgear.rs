@@ -162,6 +162,45 @@ fn a_slower_replay_shows_every_tick_and_what_lies_between() {
     }
 }
 
+/// A log beside another: at any time what a replay of its own shows then, between ticks too.
+#[test]
+fn a_ghost_is_shown_as_by_a_replay_of_its_own() {
+    let (log, flown) = flight();
+    let ghost = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/gust.mcap");
+    let part = ["--until", "0.3", "--speed", "0.5"];
+    let alone = watched(&[&["replay", text(&ghost)], &part[..]].concat()).1;
+    let flightgear = FakeFlightGear::new();
+    let place = flightgear.place();
+    let port = flightgear.fdm.local_addr().expect("bound").port() + 3;
+    let beside = UdpSocket::bind(("127.0.0.1", port)).expect("the port of the second aircraft");
+    beside.set_read_timeout(Some(Duration::from_secs(1))).expect("a timeout");
+    let mut program = command(&["replay", text(log), "--ghost", text(&ghost)]);
+    program.args(part).args(["--flightgear", &place, "--hold", "0"]);
+    let told = said(&mut program).ends(OK).says("pictures sent to");
+    assert!(!told.to_string().contains("nobody listens"), "{told}");
+    let heard = flightgear.listen(|| true);
+    // The first one's own pictures are none the worse for it: every other is a tick.
+    assert!(
+        heard.contents()[1] == flown.contents()[0] && heard.contents()[99] == flown.contents()[49]
+    );
+    let mut bytes = [0; 2048];
+    for number in 0..150 {
+        let length = beside.recv(&mut bytes).expect("a packet");
+        assert!(bytes[..length] == alone.channel[number].1, "picture {number}");
+    }
+    // Half a second further: its picture after the first one's is that of tick 126.
+    let mut program = command(&["replay", text(log), "--ghost", text(&ghost)]);
+    program.args(["--ghost-ahead", "0.5", "--until", "0.1", "--flightgear", &place, "--hold", "0"]);
+    said(&mut program).ends(OK);
+    let ticks: Vec<_> =
+        std::iter::from_fn(|| beside.recv(&mut bytes).ok().map(|length| bytes[..length].to_vec()))
+            .filter_map(|packet| Channel::parse(&packet).expect("a packet").get("tiltrotor/tick"))
+            .collect();
+    assert!(ticks.contains(&126.0) && ticks.last() == Some(&150.0), "{ticks:?}");
+    let lost = ["replay", text(log), "--ghost", "there-is-none.mcap", "--no-flightgear"];
+    tiltrotor(&lost).refused().says("there-is-none.mcap");
+}
+
 #[test]
 fn a_moment_is_shown_until_told_to_stop() {
     let (log, flown) = flight();

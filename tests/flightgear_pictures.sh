@@ -66,6 +66,20 @@ moment conversion "$(when conversion)" 125 4
 moment aeroplane "$(when aeroplane)" 215 6
 moment landing "$(when landing)" 40 5
 
+# A second aircraft: the same flight, a third of a second ahead. It is loaded when it first appears.
+"$tiltrotor" replay "$work/demo.mcap" --ghost "$work/demo.mcap" --ghost-ahead .33 --at "$(when aeroplane)" --hold forever \
+    --flightgear "127.0.0.1:$fdm" >"$work/replay.log" 2>&1 &
+processes+=($!)
+view_number "Helicopter View"
+set_property /sim/current-view/z-offset-m -40
+set_property /sim/current-view/heading-offset-deg 200
+for _ in $(seq 60); do
+    [ "$(property /models/model/path)" != "Aircraft/XV-15/Models/ghost.xml" ] || break
+    sleep 1
+done
+sleep 5
+take ghost
+
 no_complaints
-python3 tests/flightgear/look.py "$work" hover conversion aeroplane landing
+python3 tests/flightgear/look.py "$work" hover conversion aeroplane landing ghost
 echo "all pictures show what they should; $SECONDS s"

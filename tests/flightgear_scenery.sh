@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The real FlightGear over its scenery of Hilo: a flight begins on FlightGear's runway, takes off, and rolls on
-# it, and the wheels are on the ground that FlightGear draws; the flight replays exactly without FlightGear.
+# The real FlightGear over its scenery of Hilo: a flight begins on FlightGear's runway and rolls on it, another lands
+# on it, and the wheels are on the ground that FlightGear draws; the flight replays exactly without FlightGear.
 # Usage: tests/flightgear_scenery.sh [TILTROTOR]
 set -euo pipefail
 cd "$(dirname "$0")/.."

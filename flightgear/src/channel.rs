@@ -23,6 +23,10 @@ use crate::scene::Scene;
 
 /// Name of the protocol: FlightGear looks for `Protocol/tiltrotor.xml`.
 pub const PROTOCOL: &str = "tiltrotor";
+/// The same table for a second aircraft beside the first.
+pub const GHOST_PROTOCOL: &str = "tiltrotor-ghost";
+/// Where the second aircraft's properties are in FlightGear's tree.
+pub const GHOST: &str = "/ghost";
 /// Numbers in a packet.
 pub const COUNT: usize = count();
 /// Bytes of a packet.

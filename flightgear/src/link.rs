@@ -1,4 +1,4 @@
-//! The way to FlightGear: two UDP packets a picture to each place, never waiting, never failing the
+//! The way to FlightGear: two UDP packets a picture, three with a second aircraft, to each place, never waiting, never failing the
 //! flight.
 //!
 //! # The newest picture wins
@@ -36,8 +36,8 @@ pub enum LinkError {
         /// As given.
         destination: String,
     },
-    /// No room for the second channel.
-    #[error("`{destination}`: the second channel goes to the next port, and there is none")]
+    /// No room for what goes to the ports after it.
+    #[error("`{destination}`: the ports up to three after it are used too, and there are none")]
     NoNextPort {
         /// As given.
         destination: String,
@@ -61,12 +61,21 @@ pub enum Listener {
     Nobody,
     /// Nobody listens at the port of the second channel: FlightGear was started without it.
     NoChannel,
+    /// Nobody listens at the port of the second aircraft: FlightGear was started without it.
+    NoGhost,
 }
+
+/// Ports after FlightGear's own packets: of the second channel.
+pub const CHANNEL_PORT: u16 = 1;
+/// The same: of what FlightGear tells, at the machine of the flight.
+pub const REPORT_PORT: u16 = 2;
+/// The same: of a second aircraft.
+pub const GHOST_PORT: u16 = 3;
 
 /// How many pictures went to a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sent {
-    /// Where to; the second channel goes to the port after it.
+    /// Where to; the second channel and a second aircraft go to ports after it.
     pub destination: SocketAddr,
     /// Pictures handed to the system. Whether they arrived, UDP does not say.
     pub sent: u64,
@@ -130,6 +139,7 @@ impl Link {
 struct Way {
     fdm: Socket,
     channel: Socket,
+    ghost: Socket,
     sent: u64,
     dropped: u64,
 }
@@ -137,20 +147,22 @@ struct Way {
 impl Way {
     fn new(destination: &str) -> Result<Self, LinkError> {
         let fdm = resolve(destination)?;
-        let mut channel = fdm;
-        let Some(next) = fdm.port().checked_add(1) else {
+        if fdm.port().checked_add(GHOST_PORT).is_none() {
             return Err(LinkError::NoNextPort { destination: destination.to_owned() });
+        }
+        let open = |after: u16| {
+            let address = SocketAddr::new(fdm.ip(), fdm.port() + after);
+            Socket::new(address).map_err(|source| LinkError::Socket { address, source })
         };
-        channel.set_port(next);
-        let open =
-            |address| Socket::new(address).map_err(|source| LinkError::Socket { address, source });
-        Ok(Self { fdm: open(fdm)?, channel: open(channel)?, sent: 0, dropped: 0 })
+        let (channel, ghost) = (open(CHANNEL_PORT)?, open(GHOST_PORT)?);
+        Ok(Self { fdm: open(0)?, channel, ghost, sent: 0, dropped: 0 })
     }
 
     fn send(&mut self, picture: &Picture) {
         let fdm = self.fdm.send(picture.fdm.bytes());
         let channel = self.channel.send(picture.channel.bytes());
-        if fdm && channel {
+        let ghost = picture.ghost.is_none_or(|ghost| self.ghost.send(ghost.bytes()));
+        if fdm && channel && ghost {
             self.sent += 1;
         } else {
             self.dropped += 1;
@@ -158,10 +170,11 @@ impl Way {
     }
 
     fn listener(&self) -> Listener {
-        match (self.fdm.refused, self.channel.refused) {
-            (true, _) => Listener::Nobody,
-            (false, true) => Listener::NoChannel,
-            (false, false) => Listener::Unknown,
+        match (self.fdm.refused, self.channel.refused, self.ghost.refused) {
+            (true, ..) => Listener::Nobody,
+            (_, true, _) => Listener::NoChannel,
+            (_, _, true) => Listener::NoGhost,
+            _ => Listener::Unknown,
         }
     }
 

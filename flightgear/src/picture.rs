@@ -11,12 +11,14 @@ pub struct Picture {
     pub fdm: NetFdm,
     /// What that one cannot carry.
     pub channel: Channel,
+    /// Of a second aircraft beside it.
+    pub ghost: Option<Channel>,
 }
 
 impl Picture {
     /// The picture of a moment. Asks for no memory.
     pub fn of(scene: &Scene<'_>) -> Self {
-        Self { fdm: NetFdm::of(scene), channel: Channel::of(scene) }
+        Self { fdm: NetFdm::of(scene), channel: Channel::of(scene), ghost: None }
     }
 
     /// Between two pictures, `part` of the way from one to the other: for display only, no flight was
@@ -26,6 +28,7 @@ impl Picture {
         Self {
             fdm: NetFdm::between(&from.fdm, &to.fdm, part),
             channel: Channel::between(&from.channel, &to.channel, part),
+            ghost: to.ghost,
         }
     }
 }

@@ -171,6 +171,29 @@ impl Playback {
         Ok(Some(self.shown()))
     }
 
+    /// What is to be seen at a tick that another log being shown has come to, pauses, jumps and speed
+    /// included; before its beginning and after its end, what there was to be seen there.
+    ///
+    /// # Errors
+    /// When the log's messages do not make a flight.
+    pub fn follow(
+        &mut self,
+        tick: f64,
+        watch: &mut impl FnMut(&Reflown<'_>),
+    ) -> Result<Frame<'_>, ReplayError> {
+        // There is nothing to be seen before the first tick.
+        let first = self.options.window.from_tick.unwrap_or(0).saturating_add(1);
+        let (shown, whole) = (self.after.outputs.tick, (tick.ceil() as u64).max(first));
+        if whole < shown || (whole > shown + 250 && !self.ended) {
+            self.go_to(whole, shown, watch)?;
+        }
+        while !self.ended && self.after.outputs.tick < whole {
+            self.ended = self.fly(watch)?.is_none();
+        }
+        self.anchor(engine::math::min(tick, self.after.outputs.tick as f64));
+        Ok(self.shown())
+    }
+
     /// What is to be seen now.
     pub fn shown(&self) -> Frame<'_> {
         let part = self.tick() - (self.after.outputs.tick as f64 - 1.0);

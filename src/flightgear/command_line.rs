@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use engine::units::{degrees, knots};
 use flightgear::channel;
+use flightgear::link::{CHANNEL_PORT, GHOST_PORT};
 use flightgear::package::Package;
 use flightgear::report::REPORT_PROTOCOL;
 
@@ -20,7 +21,7 @@ const AIRPORT_DEG: f64 = 0.1;
 /// Where packets go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ports {
-    /// Of FlightGear's own packets; the second channel is at the next one.
+    /// Of FlightGear's own packets; others follow it.
     pub port: u16,
     /// Where FlightGear listens.
     pub listen: Ipv4Addr,
@@ -50,17 +51,17 @@ impl Request {
     /// so that what FlightGear tells is of the picture it has just got.
     pub fn arguments(&self) -> Vec<String> {
         let Ports { port, listen, tell } = self.ports;
+        let incoming = |after: u16, protocol: &str| {
+            format!("--generic=socket,in,{RATE_HZ},{listen},{},udp,{protocol}", port + after)
+        };
         let mut arguments = vec![
             format!("--fg-aircraft={}", self.package.aircraft.display()),
             format!("--data={}", self.package.data.display()),
             "--aircraft=xv15".into(),
             "--fdm=null".into(),
             format!("--native-fdm=socket,in,{RATE_HZ},{listen},{port},udp"),
-            format!(
-                "--generic=socket,in,{RATE_HZ},{listen},{},udp,{}",
-                port + 1,
-                channel::PROTOCOL
-            ),
+            incoming(CHANNEL_PORT, channel::PROTOCOL),
+            incoming(GHOST_PORT, channel::GHOST_PROTOCOL),
             format!("--generic=socket,out,{RATE_HZ},{},{},udp,{REPORT_PROTOCOL}", tell.0, tell.1),
         ];
         arguments.extend(self.place());

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 use flightgear::Receiver;
+use flightgear::link::{CHANNEL_PORT, GHOST_PORT};
 
 use super::command_line::Request;
 use super::find;
@@ -35,7 +36,7 @@ impl Running {
     /// When something listens at its port already, or it cannot be started.
     pub fn start(request: &Request) -> Result<Self> {
         let (listen, port) = (request.ports.listen, request.ports.port);
-        for port in [port, port + 1] {
+        for port in [port, port + CHANNEL_PORT, port + GHOST_PORT] {
             if UdpSocket::bind((listen, port)).is_err() {
                 bail!(
                     "something listens at {listen}:{port} already: a FlightGear that runs? Fly without \

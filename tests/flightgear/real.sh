@@ -94,7 +94,8 @@ start_flightgear() { # WIDTHxHEIGHT [OPTIONS]
         FG_HOME="$fg_home" XDG_RUNTIME_DIR="$work/xdg" \
         "$fgfs" --fg-aircraft="$PWD/flightgear/Aircraft" --aircraft=xv15 --data="$PWD/flightgear/data" \
         --airport=PHTO --fdm=null --native-fdm="socket,in,60,127.0.0.1,$fdm,udp" \
-        --generic="socket,in,60,127.0.0.1,$((fdm + 1)),udp,tiltrotor" --httpd="127.0.0.1:$http" \
+        --generic="socket,in,60,127.0.0.1,$((fdm + 1)),udp,tiltrotor" \
+        --generic="socket,in,60,127.0.0.1,$((fdm + 3)),udp,tiltrotor-ghost" --httpd="127.0.0.1:$http" \
         --geometry="$1" --wind=0@0 --disable-terrasync --disable-splash-screen \
         --disable-real-weather-fetch --disable-ai-traffic --disable-ai-models --disable-random-objects \
         --disable-random-vegetation --disable-random-buildings --disable-clouds --disable-clouds3d \

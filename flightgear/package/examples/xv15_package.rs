@@ -79,12 +79,27 @@ mod tests {
             assert!(sent.contains(&indexed(node)), "tiltrotor/{node} is not sent");
         }
         assert!(seen > 100, "{seen} properties");
+
+        let protocol = tree("flightgear/data/Protocol/tiltrotor-ghost.xml");
+        let sent: Vec<_> = between(&protocol, "<node>/ghost/", '<').map(indexed).collect();
+        let ghost = tree(&format!("{FOLDER}/Models/ghost.xml"));
+        let moved: Vec<_> = between(&ghost, "<property>/ghost/", '<').map(indexed).collect();
+        assert!(moved.len() > 50, "{} properties", moved.len());
+        for node in moved {
+            assert!(sent.contains(&node), "ghost/{node} is not sent");
+        }
+        assert_eq!(between(&ghost, "<property>tiltrotor/", '<').next(), None, "the first one's");
     }
 
     #[test]
     fn no_comment_of_xml_holds_what_would_end_it() {
-        for file in ["xv15-set.xml", "Models/xv15.xml", "Sounds/xv15-sound.xml", "Display/pfd.svg"]
-        {
+        for file in [
+            "xv15-set.xml",
+            "Models/xv15.xml",
+            "Models/ghost.xml",
+            "Sounds/xv15-sound.xml",
+            "Display/pfd.svg",
+        ] {
             let text = tree(&format!("{FOLDER}/{file}"));
             for comment in text.split("<!--").skip(1) {
                 let inside = comment.split("-->").next().unwrap_or("");

@@ -49,6 +49,22 @@ pub fn xml(aircraft: &Aircraft) -> String {
     model.text + "</PropertyList>\n"
 }
 
+/// The file of a second aircraft beside the first: the same in amber, moved by what is sent for it.
+///
+/// FlightGear looks properties of such a model up at the root of its tree, so they are written in full.
+pub fn ghost(aircraft: &Aircraft) -> String {
+    let below = "<property>/ghost/tiltrotor/";
+    let amber = " <animation>\n  <type>material</type>\n\
+                 \x20 <diffuse><red>1</red><green>0.62</green><blue>0.12</blue></diffuse>\n\
+                 \x20 <ambient><red>1</red><green>0.62</green><blue>0.12</blue></ambient>\n\
+                 \x20</animation>\n</PropertyList>\n";
+    xml(aircraft)
+        .replace("<property>tiltrotor/", below)
+        .replace("dust.left", "ghost.dust.left")
+        .replace("dust.right", "ghost.dust.right")
+        .replace("</PropertyList>\n", amber)
+}
+
 fn names<S: AsRef<str>>(objects: &[S]) -> String {
     objects.iter().map(|name| format!("  <object-name>{}</object-name>\n", name.as_ref())).collect()
 }

@@ -38,6 +38,7 @@ pub fn files(aircraft: &Aircraft) -> Vec<File> {
         file("Nasal/numbers.nas", display::numbers(aircraft)),
         file("Models/xv15.ac", model(aircraft)),
         file("Models/xv15.xml", animations::xml(aircraft)),
+        file("Models/ghost.xml", animations::ghost(aircraft)),
         file(format!("Models/{}", paint::LIVERY), paint::livery(&aircraft.display.fuselage)),
         file(format!("Models/{}", paint::DISC), paint::disc()),
         file(format!("Models/{}", paint::HALO), paint::halo()),

@@ -3,7 +3,7 @@
 use engine::controls::PilotControls;
 use engine::engines;
 use engine::inputs::Failures;
-use engine::math::{atan2, max, sqrt, square};
+use engine::math::{atan2, max, sqrt, square, wrap_angle};
 use engine::outputs::{Severity, Validity};
 use engine::units::{
     FOOT_M, HORSEPOWER_W, HOUR_S, POUND_KG, POUND_N, RPM_PER_RADPS, degrees, knots,
@@ -15,7 +15,7 @@ use crate::display;
 use crate::scene::Scene;
 
 /// Version of the table. A change of what is sent, or of its order, counts it up.
-pub const SCHEMA: i32 = 1;
+pub const SCHEMA: i32 = 2;
 
 /// One property, or the same of several parts.
 #[derive(Clone, Copy, Debug)]
@@ -81,6 +81,13 @@ pub const ROWS: &[Row] = &[
     one("tiltrotor/schema", Int, "1", "version of this table", |_, _| f64::from(SCHEMA)),
     one("tiltrotor/tick", Double, "1", "ticks flown", |s, _| s.outputs.tick as f64),
     one("tiltrotor/time-s", Double, "s", "simulated time", |s, _| s.outputs.tick as f64 * STEP_S),
+    one("tiltrotor/position/latitude-deg", Double, "deg", "geodetic, north", |s, _| {
+        degrees(s.outputs.place.latitude_rad)
+    }),
+    one("tiltrotor/position/longitude-deg", Double, "deg", "east, -180 to 180", |s, _| {
+        degrees(wrap_angle(s.outputs.place.longitude_rad))
+    })
+    .around(),
     both(
         "tiltrotor/nacelle-deg[#]",
         Float,

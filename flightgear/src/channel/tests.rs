@@ -35,12 +35,15 @@ fn random(seed: &mut u64) -> f64 {
 
 #[test]
 fn the_protocol_file_is_the_table() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/Protocol/tiltrotor.xml");
-    if std::env::var_os("BLESS").is_some() {
-        std::fs::write(path, protocol()).expect("written");
+    for (name, root) in [(PROTOCOL, ""), (GHOST_PROTOCOL, GHOST)] {
+        let path = format!("{}/data/Protocol/{name}.xml", env!("CARGO_MANIFEST_DIR"));
+        let made = protocol(root);
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(&path, &made).expect("written");
+        }
+        let kept = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(kept == made, "{path} is stale: BLESS=1 cargo test -p flightgear protocol");
     }
-    let kept = std::fs::read_to_string(path).unwrap_or_default();
-    assert!(kept == protocol(), "{path} is stale: BLESS=1 cargo test -p flightgear protocol");
 }
 
 #[test]
@@ -59,7 +62,7 @@ fn no_property_is_there_twice() {
 fn schema_and_tick_come_first_and_big_endian() {
     let outputs = Outputs { tick: 1000, ..Outputs::default() };
     let channel = shown(&outputs, &World::default(), Lamps::default());
-    assert_eq!(channel.bytes()[..4], [0, 0, 0, 1]);
+    assert_eq!(channel.bytes()[..4], [0, 0, 0, 2]);
     assert_eq!(channel.bytes()[4..12], 1000.0_f64.to_be_bytes());
     near(&channel, "tiltrotor/time-s", 4.0);
 }
@@ -169,7 +172,7 @@ fn what_is_no_packet_is_refused() {
     let node = "tiltrotor/tick".to_string();
     assert_eq!(with(4, &f64::NAN.to_be_bytes()), Err(ChannelError::NotFinite { node }));
     let node = "tiltrotor/nacelle-deg[0]".to_string();
-    assert_eq!(with(20, &f32::INFINITY.to_be_bytes()), Err(ChannelError::NotFinite { node }));
+    assert_eq!(with(36, &f32::INFINITY.to_be_bytes()), Err(ChannelError::NotFinite { node }));
 }
 
 #[test]

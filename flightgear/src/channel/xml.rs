@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use super::{COUNT, LENGTH, ROWS, SCHEMA};
 
-/// `Protocol/tiltrotor.xml`.
-pub fn protocol() -> String {
+/// A protocol file whose properties are below a node: the root (empty) in `Protocol/tiltrotor.xml`,
+/// [`GHOST`](super::GHOST) in `Protocol/tiltrotor-ghost.xml`.
+pub fn protocol(below: &str) -> String {
     let mut xml = format!(
         "<?xml version=\"1.0\"?>\n\
          <!-- Generated from flightgear/src/channel/table.rs: change it there, then run\n     \
@@ -18,7 +19,7 @@ pub fn protocol() -> String {
         for index in 0..row.count {
             let _ = writeln!(
                 xml,
-                "   <chunk>\n    <!-- {}: {} -->\n    <node>/{}</node>\n    <type>{}</type>\n   </chunk>",
+                "   <chunk>\n    <!-- {}: {} -->\n    <node>{below}/{}</node>\n    <type>{}</type>\n   </chunk>",
                 row.unit,
                 row.meaning.replace("--", "- -"),
                 row.node_of(index),

@@ -46,7 +46,7 @@ impl FlightGear {
         let mut bytes = [0; 2 * channel::LENGTH];
         let length = self.channel.recv(&mut bytes).expect("a packet");
         let channel = Channel::parse(&bytes[..length]).expect("a valid packet");
-        Picture { fdm, channel }
+        Picture { fdm, channel, ghost: None }
     }
 }
 
