@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Looks at the pictures of tests/flightgear_pictures.sh: what they have to show is there.
 
-Usage: look.py FOLDER MOMENT…   (FOLDER/MOMENT.png from outside, FOLDER/MOMENT_cockpit.png from the cockpit)
+Usage: look.py FOLDER MOMENT…   (FOLDER/MOMENT.png from outside, FOLDER/MOMENT_cockpit.png from the cockpit;
+FOLDER/ghost.png with a second aircraft, which is amber)
 """
 import itertools
 import subprocess
@@ -38,6 +39,11 @@ def main():
         ground = count(cockpit, lambda c: near(c, (112, 74, 36), 30))
         assert sky > 300 and ground > 300, f"{moment}: display with {sky} pixels of sky, {ground} of ground"
         print(f"{moment}: {white} pixels of white paint; on the display {sky} of sky, {ground} of ground")
+    ghost = pictures["ghost"] = pixels(f"{folder}/ghost.png")
+    amber = count(ghost, lambda c: c[0] > 170 and c[2] < 60 and 0.5 * c[0] < c[1] < 0.78 * c[0])
+    white = count(ghost, lambda c: min(c) > 190 and max(c) - min(c) < 25)
+    assert amber > 60 and white > 60, f"ghost: {amber} pixels of amber, {white} of white paint"
+    print(f"ghost: {amber} pixels of amber beside {white} of white paint")
     for (a, one), (b, other) in itertools.combinations(pictures.items(), 2):
         differ = sum(1 for x, y in zip(one, other) if not near(x, y, 12))
         assert differ > WIDE * HIGH // 20, f"{a} and {b} differ in {differ} pixels only"
