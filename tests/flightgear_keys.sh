@@ -38,8 +38,8 @@ press() { # KEY SECONDS
     # At least one more frame is drawn before the next one.
     sleep 1.5
 }
-press braceright 2.5
-press braceleft 2
+press k 2.5
+press j 2
 press bracketleft 1
 press bracketright 1
 for key in g B s r m; do press "$key" 1; done
