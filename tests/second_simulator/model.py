@@ -111,7 +111,7 @@ def legs(data):
 
 
 def write(folder, data):
-    """Writes the aircraft below a folder, and returns its states with what they begin with."""
+    """Writes the aircraft below a folder, and returns where its values are, and its states' beginning."""
     sheet = Sheet(KNOWN)
     sheet.path["root_from_three_quarters"] = "xv/root"
     systems.write(sheet, data)
@@ -152,14 +152,14 @@ def write(folder, data):
     (engine / "shaft.xml").write_text(
         '<?xml version="1.0"?><electric_engine name="shaft"><power unit="WATTS">1</power></electric_engine>'
     )
-    return sheet.path
+    return sheet.path, start
 
 
 class Simulator:
     """JSBSim, told what to do in the project's names."""
 
-    def __init__(self, folder, path):
-        self.path = path
+    def __init__(self, folder, data):
+        self.path, self.begin = write(folder, data)
         self.fdm = jsbsim.FGFDMExec(str(folder))
         self.fdm.set_debug_level(0)
         self.fdm.set_aircraft_path("aircraft")
@@ -167,6 +167,7 @@ class Simulator:
         self.fdm.set_dt(STEP_S)
         if not self.fdm.load_model("xv15"):
             raise RuntimeError("JSBSim does not read the aircraft that was written for it")
+        self.rated_w = 2 * 745.7 * data.number("engines.rated_power_hp")
         self.latitude = math.radians(19.721359)
 
     def __getitem__(self, name):
@@ -182,8 +183,8 @@ class Simulator:
         fdm["ic/lat-geod-deg"] = math.degrees(self.latitude)
         fdm["ic/long-gc-deg"] = -155.029302
         fdm["ic/h-sl-ft"] = height_m / FOOT_M
-        for name, value in zip(("phi", "theta", "psi"), euler_rad):
-            fdm[f"ic/{name}-rad"] = value
+        for name, value in zip(("phi-rad", "theta-rad", "psi-true-rad"), euler_rad):
+            fdm[f"ic/{name}"] = value
         for name, value in zip("uvw", body_mps):
             fdm[f"ic/{name}-fps"] = value / FOOT_M
         for name, value in zip("pqr", rates_radps):

@@ -42,7 +42,7 @@ def write(sheet, data):
     sheet.state("flap", 40.0)
     sheet.state("gear", 1.0)
     table("tilt_rate", "tilt", "actuators.nacelle_degps")
-    low, high = n("actuators.mast_tilt_deg_min"), n("actuators.mast_tilt_deg_max")
+    low, high = 0.0, n("actuators.mast_tilt_deg_max")  # the 5 deg behind upright are not used here
     sheet.next("tilt", f"min({high!r}, max({low!r}, tilt - nacelle_aft * tilt_rate * {STEP_S!r}))")
     a = "actuators."
     sheet.follow("flap", "flap_lever", n(a + "flap.lag_s"), n(a + "flap.rate_degps_max"), 0.0, n(a + "flap.deg_max"))
