@@ -44,6 +44,8 @@ def trim(sim, case):
     x = np.array(case["start"], dtype=float)
     left = np.inf
     for _ in range(40):
+        put(sim, case, *x)
+        sim["power_norm"] = sim.power_w() / sim.rated_w  # the engines' jets go with it
         off = put(sim, case, *x)[[0, 2, 4]] * [1, 1, 10]
         left = np.abs(off).max()
         if left < 1e-5:
