@@ -17,7 +17,14 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
-from dynbem import BladeGeometry, QuasiStaticBEM, QuasiStaticRotorState, RotorDefinition, RotorInputs, TabulatedPolar
+from dynbem import (
+    BladeGeometry,
+    QuasiStaticBEM,
+    QuasiStaticRotorState,
+    RotorDefinition,
+    RotorInputs,
+    TabulatedPolar,
+)
 from dynbem.rotor_definition import LinearPolarParameters
 
 HERE = Path(__file__).resolve().parent
@@ -34,7 +41,10 @@ DENSITY = 1.225
 
 def section(rotors):
     """The blade's section at 3/4 radius, from .55 to .80: the table, and a flat plate far beyond it."""
-    lift, drag = rotors["blade"]["section"]["lift_coefficient"], rotors["blade"]["section"]["drag_coefficient"]
+    lift, drag = (
+        rotors["blade"]["section"]["lift_coefficient"],
+        rotors["blade"]["section"]["drag_coefficient"],
+    )
     at = lift["radius_norm"].index(0.80)
     known = np.radians(lift["alpha_deg"])
     alpha = np.radians(np.arange(-180.0, 180.5, 1.0))
@@ -98,7 +108,16 @@ def main():
     for nacelle, knots in FLIGHTS:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "trim.csv"
-            command = [sys.argv[1], "trim", "--nacelle", str(nacelle), "--speed-kt", str(knots), "--csv", str(file)]
+            command = [
+                sys.argv[1],
+                "trim",
+                "--nacelle",
+                str(nacelle),
+                "--speed-kt",
+                str(knots),
+                "--csv",
+                str(file),
+            ]
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
             row = {name: float(value) for name, value in next(csv.DictReader(file.open())).items()}
         thrust = 0.5 * (row["thrust_left_lbf"] + row["thrust_right_lbf"]) * LBF_N

@@ -45,13 +45,13 @@ def write(sheet, data):
         ):
             if force:
                 sums[axis].append(force)
-                sums_for = [(moment, arm) for moment, arm in moments if arm != 0.0]
-                for moment, arm in sums_for:
-                    sums[moment].append(f"{arm!r} * {force}")
+                for moment, arm in moments:
+                    if arm != 0.0:
+                        sums[moment].append(f"{arm!r} * {force}")
 
     let("alpha", "57.29578 * atan2(w, u)")
-    let("beta_abs", "abs(57.29578 * atan2(v, sqrt(u * u + w * w) + 0.01))")
     let("beta", "57.29578 * atan2(v, sqrt(u * u + w * w) + 0.01)")
+    let("beta_abs", "abs(beta)")
     let("q_uw", "0.5 * rho * (u * u + w * w)")
     let("q_all", "0.5 * rho * vt * vt")
     let("speed", "max(vt, 20)")
@@ -128,7 +128,11 @@ def wing(sheet, data, let, table, push, sums):
     table("cd_least", ["tilt", "flap"], "wing_pylon.drag_at_no_lift", "mast_tilt_deg", "flap_deg")
     table("cl_beta", ["tilt", "flap"], "wing_pylon.rolling_by_sideslip_per_rad", "mast_tilt_deg", "flap_deg")
     table(
-        "cl_beta_lift", ["tilt", "flap"], "wing_pylon.rolling_by_sideslip_and_lift_per_rad", "mast_tilt_deg", "flap_deg"
+        "cl_beta_lift",
+        ["tilt", "flap"],
+        "wing_pylon.rolling_by_sideslip_and_lift_per_rad",
+        "mast_tilt_deg",
+        "flap_deg",
     )
     table("flaperon_part", ["tilt", "flap"], "wing_pylon.flaperon_factor", "mast_tilt_deg", "flap_deg")
     let("p_hat", f"{span / 2!r} * p / speed")
@@ -184,13 +188,18 @@ def fuselage(data, let, table, push, sums):
     f = "fuselage."
     for name, path in (("lf", "lift_ft2"), ("df", "drag_ft2"), ("mf", "pitching_ft3")):
         table(name, ["alpha"], f + path)
-    for name, path in (("lf_b", "lift_by_sideslip_ft2"), ("df_b", "drag_by_sideslip_ft2"), ("mf_b", "pitching_by_sideslip_ft3")):
-        table(name, ["beta_abs"], f + path)
-    for name, path in (("yf", "side_ft2"), ("rf", "rolling_ft3"), ("nf", "yawing_ft3")):
+    by_sideslip = {
+        "lf_b": "lift_by_sideslip_ft2", "df_b": "drag_by_sideslip_ft2", "mf_b": "pitching_by_sideslip_ft3",
+        "yf": "side_ft2", "rf": "rolling_ft3", "nf": "yawing_ft3",
+    }  # fmt: skip
+    for name, path in by_sideslip.items():
         table(name, ["beta_abs"], f + path)
     let("way", "beta / (beta_abs + 0.000001)")
     let("cos2", "cos(beta / 57.29578) * cos(beta / 57.29578)")
-    let("body_lift", f"q_all * (lf * cos2 + lf_b + {n(f + 'lift_offset_ft2') + n(f + 'lift_correction_ft2')!r})")
+    let(
+        "body_lift",
+        f"q_all * (lf * cos2 + lf_b + {n(f + 'lift_offset_ft2') + n(f + 'lift_correction_ft2')!r})",
+    )
     fixed = n(f + "drag_offset_ft2") + n(f + "drag_correction_ft2") + n(f + "pod_drag_ft2")
     let("body_drag", f"q_all * (df * cos2 + df_b + {fixed!r} + {n(f + 'gear_drag_ft2')!r} * gear)")
     let("body_x", "body_lift * sin_alpha - body_drag * cos_alpha")
@@ -215,7 +224,14 @@ def tail(data, let, table, push):
     let("w_h", f"w - {x!r} * q - wake_tail * cos_tilt")
     let("alpha_flow", "57.29578 * atan2(w_h, u_h)")
     # What the wing sends arrives later: a state of [systems.py] follows it.
-    table("eps_wing", ["tilt", "alpha_free", "flap"], h + "downwash_deg", "mast_tilt_deg", "alpha_deg", "flap_deg")
+    table(
+        "eps_wing",
+        ["tilt", "alpha_free", "flap"],
+        h + "downwash_deg",
+        "mast_tilt_deg",
+        "alpha_deg",
+        "flap_deg",
+    )
     let("alpha_h", "alpha_flow - eps")
     table("cl_h", ["alpha_h", "elevator"], h + "lift", "alpha_deg", "elevator_deg")
     table("cd_h", ["alpha_h"], h + "drag")
@@ -236,7 +252,10 @@ def fins(sheet, data, let, table, push):
     x, y, z = arm_ft(n(f + "centre_in"))
     floor = n(f + "sidewash_speed_ftps_min")
     let("v_f", f"v + {x!r} * r - {z!r} * p")
-    let("p_wash", f"{n(f + 'sidewash_by_roll_rate')!r} * {n(f + 'wing_span_ft') / 2!r} * p / max(abs(u), {floor!r})")
+    let(
+        "p_wash",
+        f"{n(f + 'sidewash_by_roll_rate')!r} * {n(f + 'wing_span_ft') / 2!r} * p / max(abs(u), {floor!r})",
+    )
     let("beta_f", "57.29578 * (atan2(v_f, sqrt(u * u + w * w) + 0.01) - p_wash)")
     let("beta_f_abs", "abs(beta_f)")
     axes, values = fin(data)
@@ -246,8 +265,12 @@ def fins(sheet, data, let, table, push):
     table("rotor_wash", ["knots", "beta_f_abs"], f + "rotor_sidewash", "airspeed_kt", "beta_deg")
     for flap in (0, 40):
         table(
-            f"wash_{flap}", ["tilt", "alpha", "beta_f_abs"], f"{f}fuselage_sidewash.flap_{flap}",
-            "mast_tilt_deg", "alpha_deg", "beta_deg",
+            f"wash_{flap}",
+            ["tilt", "alpha", "beta_f_abs"],
+            f"{f}fuselage_sidewash.flap_{flap}",
+            "mast_tilt_deg",
+            "alpha_deg",
+            "beta_deg",
         )
     let("wash", "wash_0 + (wash_40 - wash_0) * min(1, flap / 40)")
     let("q_f", f"0.5 * rho * {2 * n(f + 'area_ft2')!r} * (u * u + v_f * v_f)")

@@ -36,9 +36,11 @@ def task(folder, pitched):
 
 def trims(ours, sim):
     """The table of steady flights; returns how many are beyond a limit."""
-    print(f"\nSteady flight at 13,000 lb, sea level. Limits: pitch ±{limits.PITCH_DEG:g} deg, power ±{limits.POWER_PERCENT:g} %.")
+    allowed = f"pitch ±{limits.PITCH_DEG:g} deg, power ±{limits.POWER_PERCENT:g} %"
+    print(f"\nSteady flight at 13,000 lb, sea level. Limits: {allowed}.")
     print(f"{'':24}{'pitch deg':>22}{'power kW':>24}{'stick in':>14}{'collective deg':>17}")
-    print(f"{'nacelle, speed':24}" + f"{'ours':>7}{'second':>7}{'':>8}" + f"{'ours':>8}{'second':>8}{'':>8}" + f"{'ours':>7}{'second':>7}" * 2)
+    pair = f"{'ours':>7}{'second':>7}"
+    print(f"{'nacelle, speed':24}{pair}{'':>8}{'ours':>8}{'second':>8}{'':>8}{pair}{pair}")
     beyond = 0
     for case in limits.TRIMS:
         a = ours.trim(case)
@@ -65,7 +67,9 @@ def show(values):
 
 def modes(ours, sim):
     """Modes beside `linearize`, and what flight identified."""
-    print("\nModes, SCAS off, 1/s. Shown, not limited: the second simulator's rotor speed and collective are held.")
+    print(
+        "\nModes, SCAS off, 1/s. Shown, not limited: the second simulator's rotor speed and collective are held."
+    )
     for nacelle, knots in limits.MODES:
         if nacelle == 90:
             case = limits.TRIMS[0]
@@ -119,7 +123,9 @@ def by_phase(ours, phases, theirs, log):
         for angle in ("roll", "pitch", "heading"):
             a = np.interp(begin + part * (end - begin), ours["time"], np.unwrap(ours[angle]))
             b = np.interp(
-                mine[name][0] + part * (mine[name][1] - mine[name][0]), theirs["time"], np.unwrap(theirs[angle])
+                mine[name][0] + part * (mine[name][1] - mine[name][0]),
+                theirs["time"],
+                np.unwrap(theirs[angle]),
             )
             off = (a - b + math.pi) % (2 * math.pi) - math.pi
             line += f"{math.degrees(math.sqrt(np.mean(off**2))):7.1f}"
@@ -133,24 +139,32 @@ def balance(sim):
     sim.settle(3)
     for axis in ("xx", "yy", "zz", "xz"):
         wanted = DATA.number(f"weight_balance.inertia.{axis}_slug_ft2")
-        found = sim[f"inertia/i{axis}-slugs_ft2"] * (-1 if axis == "xz" else 1)  # JSBSim shows the matrix's own
+        found = sim[f"inertia/i{axis}-slugs_ft2"] * (
+            -1 if axis == "xz" else 1
+        )  # JSBSim shows the matrix's own
         if abs(found - wanted) > 0.01 * wanted:
-            raise SystemExit(f"I{axis} of the second simulator is {found:.0f} slug ft2, published is {wanted:.0f}")
+            raise SystemExit(
+                f"I{axis} of the second simulator is {found:.0f} slug ft2, published is {wanted:.0f}"
+            )
     station = sim["inertia/cg-x-in"] - DATA.number("weight_balance.cg_in")[0]
     if abs(station) > 0.05:
-        raise SystemExit(f"the second simulator's centre of gravity is {station:.2f} in aft of the published one")
+        raise SystemExit(
+            f"the second simulator's centre of gravity is {station:.2f} in aft of the published one"
+        )
 
 
 def tasks(results):
     """What is promised of the task, flown by the second simulator."""
-    print(f"\nThe task in the second simulator. Promised: every phase, no touch on the way, ends within {limits.END_M:g} m.")
+    promised = f"every phase, no touch on the way, ends within {limits.END_M:g} m"
+    print(f"\nThe task in the second simulator. Promised: {promised}.")
     failed = 0
-    for name, (_, log, said) in results:
+    for name, (_, _, said) in results:
         bad = not said["done"] or said["touched"] or said["bounced"] or said["off_m"] > limits.END_M
         failed += bad
         print(
             f"{name:26} {said['phases']} phases in {said['took_s']:.1f} s, ends {said['off_m']:.2f} m from the start,"
             f" {'touches the ground on the way' if said['touched'] else 'no touch between lift-off and touchdown'}"
+            f"{', bounces' if said['bounced'] else ''}"
             f"{'' if not said['gave_up'] else ', gave up: ' + said['gave_up']}{'  BEYOND' if bad else ''}"
         )
     return failed
@@ -163,7 +177,9 @@ def growth(found):
         over = np.nonzero(difference[:, 1] > 2.0)[0]
         return f"{difference[over[0], 0]:.1f}" if len(over) else f"> {limits.WINDOW_S:g}"
 
-    print("\nRecorded inputs from recorded states: s until attitudes differ by 2 deg, and the difference after 2 s")
+    print(
+        "\nRecorded inputs from recorded states: s until attitudes differ by 2 deg, and the difference after 2 s"
+    )
     print(f"{'window':24}{'at s':>7}{'as recorded':>24}{'first acceleration matched':>30}")
     for name, at_s, raw, matched in found:
         both = "".join(
@@ -182,7 +198,9 @@ def main():
         beyond = trims(ours, sim)
         modes(ours, sim)
         outputs, state, phases = ours.demonstration()
-        phases = [each for each in phases if "," not in each[1] and not each[1].startswith(("marker", "end "))]
+        phases = [
+            each for each in phases if "," not in each[1] and not each[1].startswith(("marker", "end "))
+        ]
         flights = [each.result() for each in flights]
         failed = beyond + tasks(list(zip(("vertical take-off", "pitch-forward take-off"), flights)))
         mine = our_record(outputs)

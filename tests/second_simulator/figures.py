@@ -75,7 +75,9 @@ def euler(flights, path):
         if "hover" not in phase.split() or phase == "hover turn":
             at = rows[0].get_xaxis_transform()
             if phase != "on the ground":
-                rows[0].text(time, 1.03, phase, transform=at, fontsize=6.5, rotation=35, color="0.3", va="bottom")
+                rows[0].text(
+                    time, 1.03, phase, transform=at, fontsize=6.5, rotation=35, color="0.3", va="bottom"
+                )
     rows[2].legend(loc="lower left", framealpha=0.9)
     rows[2].set_xlabel("time, s (the phases named are those of ours)")
     rows[2].set_xlim(0, None)

@@ -11,6 +11,8 @@ COLUMNS = (
     "stick_aft", "stick_right", "pedal_right", "lever", "collective", "wheels",
 )  # fmt: skip
 HEADING_RAD = math.radians(270)
+# Higher than at touchdown is a bounce.
+BOUNCE_M = 0.3
 
 
 def fly(sim, data, pitched=False, longest_s=400.0):
@@ -27,9 +29,21 @@ def fly(sim, data, pitched=False, longest_s=400.0):
         seen = pilot.act(tick / 250)
         rows.append(
             (
-                tick / 250, *seen.position, seen.phi, seen.theta, seen.psi, seen.tilt, sim["knots"],
-                sim.power_w() / 1e3, seen.rotor * 30 / math.pi, sim["stick_aft"], sim["stick_right"],
-                sim["pedal_right"], sim["lever"], sim["collective_r"], sum(seen.legs),
+                tick / 250,
+                *seen.position,
+                seen.phi,
+                seen.theta,
+                seen.psi,
+                seen.tilt,
+                sim["knots"],
+                sim.power_w() / 1e3,
+                seen.rotor * 30 / math.pi,
+                sim["stick_aft"],
+                sim["stick_right"],
+                sim["pedal_right"],
+                sim["lever"],
+                sim["collective_r"],
+                sum(seen.legs),
             )  # fmt: skip
         )
         if pilot.done or not math.isfinite(seen.height) or seen.height < 0.5 or abs(seen.phi) > 1.5:
@@ -42,18 +56,18 @@ def fly(sim, data, pitched=False, longest_s=400.0):
 
 def summary(record, pilot):
     """What is promised of a flight: does it land where it began, without touching the ground on the way?"""
-    lifted = np.nonzero(record["down"] < -4.0)[0]
-    first = lifted[0] if len(lifted) else 0
-    landing = next((time for time, name in pilot.log if name == "landing"), record["time"][-1])
-    on_the_way = (record["time"] >= record["time"][first]) & (record["time"] < landing)
-    # From lift-off the wheels may touch again only once: to stay.
-    after = np.nonzero(record["wheels"][first:])[0]
-    bounced = len(after) and not record["wheels"][first + after[0] :][250:].all()
+    time, wheels, height = record["time"], record["wheels"] > 0, -record["down"]
+    # Lift-off: the first moment without a wheel on the ground. Touchdown: the first with one while landing.
+    landing = next((begun for begun, name in pilot.log if name == "landing"), math.inf)
+    free = np.nonzero(~wheels & (time > 1.0))[0]
+    down = np.nonzero(wheels & (time >= landing))[0]
+    lift_off = free[0] if len(free) else 0
+    touchdown = down[0] if len(down) else len(time)
     return {
         "done": pilot.done and pilot.gave_up is None and pilot.at == len(pilot.phases),
         "phases": len(pilot.log),
-        "touched": bool(record["wheels"][on_the_way].any()),
-        "bounced": bool(bounced),
+        "touched": bool(wheels[lift_off:touchdown].any()),
+        "bounced": bool((height[touchdown:] > height[touchdown - 1] + BOUNCE_M).any()),
         "off_m": math.hypot(record["north"][-1], record["east"][-1]),
         "took_s": record["time"][-1],
         "gave_up": pilot.gave_up,

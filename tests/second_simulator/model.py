@@ -53,7 +53,7 @@ def rotor(data):
     spring = n("rotors.flapping.hub_spring_ft_lbf_per_deg") * 180 / math.pi
     offset = spring / (0.5 * n("rotors.blade.count") * first * omega**2)
     return f"""<?xml version="1.0"?>
-<rotor name="rotor"><diameter unit="FT">{2 * radius}</diameter><numblades>{n('rotors.blade.count'):.0f}</numblades>
+<rotor name="rotor"><diameter unit="FT">{2 * radius}</diameter><numblades>{n("rotors.blade.count"):.0f}</numblades>
 <gearratio>1</gearratio><nominalrpm>589</nominalrpm><minrpm>50</minrpm><maxrpm>700</maxrpm>
 <chord unit="FT">{chord}</chord><liftcurveslope>{slope}</liftcurveslope><twist unit="DEG">{TWIST_DEG}</twist>
 <hingeoffset unit="FT">{offset}</hingeoffset><flappingmoment unit="SLUG*FT2">{inertia}</flappingmoment>
@@ -128,20 +128,23 @@ def write(folder, data):
         for sign in (1, -1)
     )
     axes = "".join(
-        f'<axis name="{axis}"><function name="aero/sum-{axis.lower()}">{sheet.spell(" + ".join(terms))}</function></axis>'
+        f'<axis name="{axis}"><function name="aero/sum-{axis.lower()}">'
+        f"{sheet.spell(' + '.join(terms))}</function></axis>"
         for axis, terms in sums.items()
     )
     x, y, z = airframe.REFERENCE_IN
     text = f"""<?xml version="1.0"?>
 <fdm_config name="xv15" version="2.0" release="ALPHA">
-<metrics><wingarea unit="FT2">{n('wing_pylon.area_ft2')}</wingarea><wingspan unit="FT">{n('wing_pylon.span_ft')}</wingspan>
-<chord unit="FT">{n('wing_pylon.chord_ft')}</chord>
+<metrics><wingarea unit="FT2">{n("wing_pylon.area_ft2")}</wingarea>
+<wingspan unit="FT">{n("wing_pylon.span_ft")}</wingspan>
+<chord unit="FT">{n("wing_pylon.chord_ft")}</chord>
 <location name="AERORP" unit="IN"><x>{x}</x><y>{y}</y><z>{z}</z></location></metrics>
 {masses(data)}
 <ground_reactions>{legs(data)}</ground_reactions>
 <propulsion>{engines}<tank type="FUEL"><location unit="IN"><x>300</x><y>0</y><z>82</z></location>
 <capacity unit="LBS">1</capacity><contents unit="LBS">0</contents></tank></propulsion>
-<flight_control name="systems">{properties}<channel name="systems">{"".join(sheet.lines["systems"])}</channel></flight_control>
+<flight_control name="systems">{properties}
+<channel name="systems">{"".join(sheet.lines["systems"])}</channel></flight_control>
 <aerodynamics>{"".join(sheet.lines["airframe"])}{axes}</aerodynamics>
 </fdm_config>"""
     aircraft, engine = Path(folder) / "aircraft" / "xv15", Path(folder) / "engine"
@@ -204,7 +207,14 @@ class Simulator:
 
     def accelerations(self):
         """Of the body, ft/s2 and rad/s2: u, v, w, p, q, r."""
-        names = ("udot-ft_sec2", "vdot-ft_sec2", "wdot-ft_sec2", "pdot-rad_sec2", "qdot-rad_sec2", "rdot-rad_sec2")
+        names = (
+            "udot-ft_sec2",
+            "vdot-ft_sec2",
+            "wdot-ft_sec2",
+            "pdot-rad_sec2",
+            "qdot-rad_sec2",
+            "rdot-rad_sec2",
+        )
         return [self.fdm["accelerations/" + name] for name in names]
 
     def power_w(self):

@@ -57,7 +57,7 @@ class Ours:
         file = next((self.folder / "tables" / channel).glob("*/data.csv"))
         with open(file) as text:
             names = text.readline().strip().split(",")
-            numbers = np.loadtxt(text, delimiter=",", usecols=range(1, len(names)), converters={1: float}, ndmin=2)
+            numbers = np.loadtxt(
+                text, delimiter=",", usecols=range(1, len(names)), converters={1: float}, ndmin=2
+            )
         return {name: numbers[:, i] for i, name in enumerate(names[1:])}
-
-

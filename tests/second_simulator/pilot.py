@@ -50,7 +50,12 @@ class Seen:
         self.density = f["atmosphere/rho-slugs_ft3"] * 515.379
         force = [f[f"forces/fb{a}-total-lbs"] / (f["inertia/weight-lbs"] / 32.174) * FOOT_M for a in "xyz"]
         # In the seat everything but gravity is felt.
-        s_th, c_th, s_ph, c_ph = math.sin(self.theta), math.cos(self.theta), math.sin(self.phi), math.cos(self.phi)
+        s_th, c_th, s_ph, c_ph = (
+            math.sin(self.theta),
+            math.cos(self.theta),
+            math.sin(self.phi),
+            math.cos(self.phi),
+        )
         self.side = force[1]
         along = force[0] * c_th + (force[1] * s_ph + force[2] * c_ph) * s_th
         self.along_mps2 = along
@@ -133,7 +138,9 @@ class Hands:
         self.felt_up += HAND_S / 0.25 * (seen.up_mps2 - self.felt_up)
         through_air = 0.0 if aim.over_ground else flying
         now = seen.forward + through_air * (seen.airspeed - seen.forward)
-        along = clip(aim.forward_mps2 + 0.3 * (aim.forward - now), -aim.forward_mps2_max, aim.forward_mps2_max)
+        along = clip(
+            aim.forward_mps2 + 0.3 * (aim.forward - now), -aim.forward_mps2_max, aim.forward_mps2_max
+        )
         climb_off = aim.climb - seen.climb
         up = clip((0.8 - 0.3 * flying) * climb_off, -2.0, 2.0)
         lift = 0.014 * 0.5 * seen.density * seen.airspeed**2
@@ -171,7 +178,9 @@ class Hands:
         off = aim.right - seen.right
         slow = 1 - flying
         if seen.on_wheels < 0.1:
-            self.level = clip(self.level + slow * 0.006 * off * HAND_S, -0.15, 0.15) * (1 - flying * HAND_S / 2)
+            self.level = clip(self.level + slow * 0.006 * off * HAND_S, -0.15, 0.15) * (
+                1 - flying * HAND_S / 2
+            )
         turn = clip(0.2 * wrap(aim.heading - seen.psi), -0.35, 0.35)
         bank = clip(math.atan2(seen.airspeed * turn, G), -aim.bank_max, aim.bank_max)
         wanted = slow * clip(0.04 * off, -0.2, 0.2) + flying * bank
@@ -292,7 +301,13 @@ class Pilot:
         if (seen.speed < 3 and ahead < 30) or self.spot is not None:
             self.spot = self.start
         helicopter = seen.tilt < END_RAD
-        return self.spot is not None and distance < 3 and seen.speed < 1 and abs(seen.height - 10) < 1.5 and helicopter
+        return (
+            self.spot is not None
+            and distance < 3
+            and seen.speed < 1
+            and abs(seen.height - 10) < 1.5
+            and helicopter
+        )
 
     def slow_down(self, seen, slow):
         """A speed over the ground, no slower than the nacelles allow, which come aft meanwhile."""

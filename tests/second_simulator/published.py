@@ -62,7 +62,9 @@ def polar(data, path):
             xs, ys = lines["upright", flap]
         return at(xs, ys, x)
 
-    values = [[[value(tilt, flap, x) for flap in FLAPS_DEG] for x in angles] for tilt in ("upright", "aeroplane")]
+    values = [
+        [[value(tilt, flap, x) for flap in FLAPS_DEG] for x in angles] for tilt in ("upright", "aeroplane")
+    ]
     return [[0.0, 90.0], angles, list(FLAPS_DEG)], values
 
 

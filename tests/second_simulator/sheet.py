@@ -65,13 +65,18 @@ class Sheet:
             if len(arguments) == 1:
                 return "\n".join(f"{x:g} {y:g}" for x, y in zip(axes[0], block_values))
             top = " ".join(f"{x:g}" for x in axes[1])
-            return top + "\n" + "\n".join(
-                f"{x:g} " + " ".join(f"{y:g}" for y in row) for x, row in zip(axes[0], block_values)
+            return (
+                top
+                + "\n"
+                + "\n".join(
+                    f"{x:g} " + " ".join(f"{y:g}" for y in row) for x, row in zip(axes[0], block_values)
+                )
             )
 
         if len(arguments) == 3:
             data = "".join(
-                f'<tableData breakPoint="{at:g}">\n{block(each)}\n</tableData>' for at, each in zip(turned, values)
+                f'<tableData breakPoint="{at:g}">\n{block(each)}\n</tableData>'
+                for at, each in zip(turned, values)
             )
         else:
             data = f"<tableData>\n{block(values)}\n</tableData>"

@@ -6,8 +6,6 @@ import numpy as np
 
 from model import FOOT_M, KNOT_MPS
 
-GRAVITY = 32.174
-
 
 def airborne(sim, case):
     """Masts, flaps and rotor speed of a case."""
@@ -74,10 +72,18 @@ def modes(sim, case, found):
     def rate(x):
         u, v, w, p, q, r, phi, the = x
         acc = put(
-            sim, still, pitch + math.degrees(the), collective, stick, motion=(u, v, w), rates=(p, q, r), roll=phi
+            sim,
+            still,
+            pitch + math.degrees(the),
+            collective,
+            stick,
+            motion=(u, v, w),
+            rates=(p, q, r),
+            roll=phi,
         )
-        spin = [p + math.tan(theta + the) * (q * math.sin(phi) + r * math.cos(phi)), q * math.cos(phi) - r * math.sin(phi)]
-        return np.concatenate([acc, spin])
+        yawing = q * math.sin(phi) + r * math.cos(phi)
+        turning = [p + math.tan(theta + the) * yawing, q * math.cos(phi) - r * math.sin(phi)]
+        return np.concatenate([acc, turning])
 
     steps = np.array([1.0, 1.0, 1.0, 0.02, 0.02, 0.02, 0.01, 0.01])
     a = np.empty((8, 8))

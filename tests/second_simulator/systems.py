@@ -15,7 +15,16 @@ RADPS_PER_RPM = 3.14159265 / 30
 SLUG_FT2 = 1.355818
 PA_PER_PSF = 47.88026
 
-INPUTS = ("stick_aft", "stick_right", "pedal_right", "lever", "nacelle_aft", "flap_lever", "gear_lever", "rpm_lever")
+INPUTS = (
+    "stick_aft",
+    "stick_right",
+    "pedal_right",
+    "lever",
+    "nacelle_aft",
+    "flap_lever",
+    "gear_lever",
+    "rpm_lever",
+)
 
 
 def write(sheet, data):
@@ -45,7 +54,9 @@ def write(sheet, data):
     low, high = 0.0, n("actuators.mast_tilt_deg_max")  # the 5 deg behind upright are not used here
     sheet.next("tilt", f"min({high!r}, max({low!r}, tilt - nacelle_aft * tilt_rate * {STEP_S!r}))")
     a = "actuators."
-    sheet.follow("flap", "flap_lever", n(a + "flap.lag_s"), n(a + "flap.rate_degps_max"), 0.0, n(a + "flap.deg_max"))
+    sheet.follow(
+        "flap", "flap_lever", n(a + "flap.lag_s"), n(a + "flap.rate_degps_max"), 0.0, n(a + "flap.deg_max")
+    )
     sheet.follow("gear", "gear_lever", 0.01, 1 / n(a + "gear_s"), 0.0, 1.0)
     let("tilt_rad", "tilt / 57.29578")
     let("sin_tilt", "sin(tilt_rad)")
@@ -78,7 +89,9 @@ def write(sheet, data):
         sheet.send("hub_x", engine + "x-position")
         sheet.send("hub_z", engine + "z-position")
         sheet.send("rpm", engine + "x-rpm-dict")
-        sheet.send(f"(root_from_three_quarters + collective_{side}) / 57.29578", engine + "collective-ctrl-rad")
+        sheet.send(
+            f"(root_from_three_quarters + collective_{side}) / 57.29578", engine + "collective-ctrl-rad"
+        )
         sheet.send(f"cyclic_{side} / 57.29578", engine + "longitudinal-ctrl-rad")
         sheet.send("mass_x", f"inertia/pointmass-location-X-inches[{index}]")
         sheet.send("mass_z", f"inertia/pointmass-location-Z-inches[{index}]")
@@ -107,7 +120,9 @@ def augmentation(sheet, data, let):
         hold = ""
         if attitude:
             sheet.state(f"held_{name}", 0.0)
-            moves = f"max(1 - scas_on, min(1, max(0, (abs(wash_{name}) - {n(s + 'hold_stick_in')!r}) * 1000)))"
+            moves = (
+                f"max(1 - scas_on, min(1, max(0, (abs(wash_{name}) - {n(s + 'hold_stick_in')!r}) * 1000)))"
+            )
             sheet.next(
                 f"held_{name}",
                 f"held_{name} + ({attitude} - held_{name}) * {STEP_S / n(s + 'hold_follow_s')!r} * {moves}",
@@ -137,17 +152,29 @@ def mixer(sheet, data, let, table):
         sheet.state(name, start)
         path = "actuators." + kind
         sheet.follow(
-            name, towards, n(path + ".lag_s"), n(path + ".rate_degps_max"), n(path + ".deg_min"), n(path + ".deg_max")
+            name,
+            towards,
+            n(path + ".lag_s"),
+            n(path + ".rate_degps_max"),
+            n(path + ".deg_min"),
+            n(path + ".deg_max"),
         )
 
     for side, _, sign in MASTS:
-        actuator(f"collective_{side}", f"pitch_both - {sign} * pitch_per_stick * augmented_right", "collective", 5.0)
+        actuator(
+            f"collective_{side}",
+            f"pitch_both - {sign} * pitch_per_stick * augmented_right",
+            "collective",
+            5.0,
+        )
         actuator(
             f"cyclic_{side}",
             f"-cyclic_per_stick * augmented_aft - {sign} * cyclic_per_pedal * augmented_pedal",
             "cyclic",
         )
-    actuator("elevator", f"-{n(m + 'elevator_per_longitudinal_stick_deg_per_in')!r} * augmented_aft", "elevator")
+    actuator(
+        "elevator", f"-{n(m + 'elevator_per_longitudinal_stick_deg_per_in')!r} * augmented_aft", "elevator"
+    )
     actuator("flaperon", f"{n(m + 'flaperon_per_lateral_stick_deg_per_in')!r} * augmented_right", "flaperon")
     actuator("rudder", f"{n(m + 'rudder_per_pedal_deg_per_in')!r} * augmented_pedal", "rudder")
 
@@ -177,5 +204,7 @@ def power(sheet, data, let, table):
     let("rpm_off", f"rotor_radps / {RADPS_PER_RPM!r} - rpm_wanted")
     sheet.state("integral", 0.0)
     most = n(g + "collective_deg_max")
-    sheet.next("integral", f"min({most!r}, max(-15, integral + (1 - shaft_held) * k_i * rpm_off * {STEP_S!r}))")
+    sheet.next(
+        "integral", f"min({most!r}, max(-15, integral + (1 - shaft_held) * k_i * rpm_off * {STEP_S!r}))"
+    )
     sheet.follow("correction", "integral + k_p * rpm_off", STEP_S, n(g + "collective_degps_max"), -15.0, most)

@@ -25,7 +25,10 @@ def starts(phases):
             found = found[1:]
         if found:
             number = seen[name] = seen.get(name, 0) + 1
-            yield (f"{name} {number}" if sum(each == name for each, _ in WINDOWS) > 1 else name), found[0] + after
+            yield (
+                (f"{name} {number}" if sum(each == name for each, _ in WINDOWS) > 1 else name),
+                found[0] + after,
+            )
 
 
 def begin(sim, outputs, state, row, tick):
