@@ -35,18 +35,20 @@ def task(folder, pitched):
 
 
 def trims(ours, sim):
-    """The table of steady flights; returns how many are beyond a limit."""
+    """The table of steady flights; how many are beyond a limit, and how much further forward ours has the stick."""
     allowed = f"pitch ±{limits.PITCH_DEG:g} deg, power ±{limits.POWER_PERCENT:g} %"
     print(f"\nSteady flight at 13,000 lb, sea level. Limits: {allowed}.")
     print(f"{'':24}{'pitch deg':>22}{'power kW':>24}{'stick in':>14}{'collective deg':>17}")
     pair = f"{'ours':>7}{'second':>7}"
     print(f"{'nacelle, speed':24}{pair}{'':>8}{'ours':>8}{'second':>8}{'':>8}{pair}{pair}")
-    beyond = 0
+    beyond, forward_in = 0, 0.0
     for case in limits.TRIMS:
         a = ours.trim(case)
         b = steady.trim(sim, dict(case, speed_kt=max(0.01, case["speed_kt"])))
         pitch = b["pitch_deg"] - a["pitch_deg"]
         power = 100 * (b["power_kw"] / a["power_kw"] - 1)
+        if case is limits.TRIMS[0]:
+            forward_in = a["stick_in"] - b["stick_in"]
         bad = abs(pitch) > limits.PITCH_DEG or abs(power) > limits.POWER_PERCENT or b["left"] > 1e-4
         beyond += bad
         print(
@@ -56,7 +58,7 @@ def trims(ours, sim):
             f"{a['stick_in']:7.2f}{b['stick_in']:7.2f}{a['collective_deg']:7.1f}{b['collective_deg']:7.1f}"
             f"{'  BEYOND' if bad else ''}"
         )
-    return beyond
+    return beyond, forward_in
 
 
 def show(values):
@@ -170,6 +172,22 @@ def tasks(results):
     return failed
 
 
+def handed_over(ours, record, forward_in):
+    """The hands of the pitch-forward take-off, played into ours: how far that carries."""
+    print("\nThe pitch-forward take-off's hands in ours: difference of attitude after lift-off, deg")
+    for name, forward in (("as they are", 0.0), (f"stick {forward_in:.2f} in further forward", forward_in)):
+        outputs = ours.play(f"hands-{forward != 0.0:d}", record, limits.HANDS_S, forward)
+        time, down = outputs["time_s"], outputs["position_m_z"]
+        off = 0.0
+        for angle in ("roll", "pitch", "heading"):
+            mine = np.interp(time, record["time"], np.unwrap(record[angle]))
+            off = off + ((outputs[f"euler_{angle}_rad"] - mine + math.pi) % (2 * math.pi) - math.pi) ** 2
+        off = np.degrees(np.sqrt(off))
+        free = time[np.argmax(down < down[25] - 0.2)]
+        parts = "  ".join(f"{np.interp(free + s, time, off):4.1f} after {s} s" for s in (0, 2, 4))
+        print(f"{name:32} in the air at {free:.1f} s:  {parts}")
+
+
 def growth(found):
     """When attitudes part by 2 deg in each window."""
 
@@ -195,7 +213,7 @@ def main():
         flights = [pool.submit(task, f"{folder}/{pitched:d}", pitched) for pitched in (False, True)]
         ours, sim = Ours(sys.argv[1], folder), second(f"{folder}/2")
         balance(sim)
-        beyond = trims(ours, sim)
+        beyond, forward_in = trims(ours, sim)
         modes(ours, sim)
         outputs, state, phases = ours.demonstration()
         phases = [
@@ -207,6 +225,7 @@ def main():
         by_phase(mine, phases, flights[0][0], flights[0][1])
         found = windows.compare(sim, outputs, state, phases)
         growth(found)
+        handed_over(ours, flights[1][0], forward_in)
         if len(sys.argv) > 2:
             import figures
 

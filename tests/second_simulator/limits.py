@@ -26,3 +26,6 @@ WINDOWS = (
     ("hover", 1.0), ("acceleration", 6.0), ("acceleration", 20.0), ("conversion", 3.0), ("climb", 3.0),
     ("left turn", 8.0), ("left turn", 20.0), ("approach", 20.0), ("approach", 35.0), ("hover", 0.0),
 )  # fmt: skip
+
+# For so long the hands of the pitch-forward take-off are played into ours.
+HANDS_S = 12.0

@@ -53,8 +53,27 @@ class Ours:
                 phases.append((float(at[1]), at[2]))
         return self._table("outputs"), self._table("state"), phases
 
-    def _table(self, channel):
-        file = next((self.folder / "tables" / channel).glob("*/data.csv"))
+    def play(self, name, record, until_s, forward_in=0.0):
+        """Another simulator's hands, the stick so much further forward, from the ground on; the log's outputs."""
+        script, log = self.folder / f"{name}.toml", self.folder / f"{name}.mcap"
+        axes = ("stick_aft", "stick_right", "pedal_right", "collective")
+        aft = np.clip(record["stick_aft"] - forward_in / 4.8, -1, 1)
+        columns = [aft, *(record[control] for control in ("stick_right", "pedal_right", "lever"))]
+        with open(script, "w") as text:
+            for time, *hands in zip(record["time"], *columns):
+                if time > until_s:
+                    break
+                axis = ", ".join(f"{control} = {value:.6f}" for control, value in zip(axes, hands))
+                text.write(f"[[event]]\nat_s = {time:.3f}\naxis = {{ {axis} }}\n")
+        self._run(
+            "fly", "--fast", "--no-flightgear", "--force", "--script", str(script),
+            "--duration", str(until_s), "--out", str(log),
+        )  # fmt: skip
+        self._run("log", "export", str(log), "--csv", str(self.folder / name), "--force")
+        return self._table("outputs", name)
+
+    def _table(self, channel, folder="tables"):
+        file = next((self.folder / folder / channel).glob("*/data.csv"))
         with open(file) as text:
             names = text.readline().strip().split(",")
             numbers = np.loadtxt(
