@@ -31,13 +31,13 @@ KNOWN = {
     "torque_r": "propulsion/engine[0]/torque-lbsft", "torque_l": "propulsion/engine[1]/torque-lbsft",
 }  # fmt: skip
 
-# The reference model's blade: 41 deg of twist in a straight line, [parameters.md 4].
+# The reference model's blade: 41 deg of twist in a straight line. [CR536, as KH has it]
 TWIST_DEG = -41.0
 ROOT_FROM_THREE_QUARTERS_DEG = -0.75 * TWIST_DEG
 LOCK_NUMBER = 3.83  # TMX 3.7: with the chord and the flapping inertia it makes the lift slope, 5.8
 SEA_LEVEL_SLUG_FT3 = 0.0023769
 TIP_LOSS = 0.97  # textbook
-INFLOW_LAG_S = 0.1  # [equations.md 3], hover
+INFLOW_LAG_S = 0.1  # Pitt and Peters in hover: .54 of a radius of air in uniform inflow
 WEIGHT_LB = 13000.0
 
 
