@@ -94,7 +94,7 @@ def wing(sheet, data, let, table, push, sums):
     )
     # Only where there is a stream to be turned: in a hover the wing is in the wake.
     let("alpha_free", "alpha - deflection * min(1, max(0, u) / 50)")
-    # Immersed area a side. [KH]
+    # Immersed area a side. [KH]; that it fades from 30 to 45 deg of tilt is an estimate.
     let("shape", "sin(1.386 * (1.570796 - tilt_rad)) + cos(3.114 * (1.570796 - tilt_rad))")
     let("cut", "min(1, max(0, (45 - tilt) / 15))")
     let("wet", "56 * cut * max(0, min(1, shape)) * max(0, (98.4 - abs(u)) / 98.4)")

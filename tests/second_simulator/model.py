@@ -36,8 +36,8 @@ TWIST_DEG = -41.0
 ROOT_FROM_THREE_QUARTERS_DEG = -0.75 * TWIST_DEG
 LOCK_NUMBER = 3.83  # TMX 3.7: with the chord and the flapping inertia it makes the lift slope, 5.8
 SEA_LEVEL_SLUG_FT3 = 0.0023769
-TIP_LOSS = 0.97  # textbook
-INFLOW_LAG_S = 0.1  # Pitt and Peters in hover: .54 of a radius of air in uniform inflow
+TIP_LOSS = 0.97  # an estimate, the usual value of textbooks
+INFLOW_LAG_S = 0.1  # an estimate, for hover
 WEIGHT_LB = 13000.0
 
 
