@@ -7,8 +7,10 @@
 mod airframe;
 mod book;
 mod dynamics;
+mod fits;
 mod flown;
 mod hover;
+mod page;
 mod performance;
 mod pictures;
 mod trims;
@@ -39,7 +41,7 @@ fn generate() -> Vec<(String, String)> {
     performance::autorotation(&aircraft, &mut book);
     airframe::components(&aircraft, &mut book);
     let mut files = pictures::all(&aircraft);
-    files.push(("VALIDATION.md".into(), book.text()));
+    files.push(("VALIDATION.md".into(), page::page(&book)));
     files
 }
 
