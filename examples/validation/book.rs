@@ -317,12 +317,16 @@ mod tests {
 
     #[test]
     fn what_was_fitted_checked_twice_or_ours_is_no_prediction() {
-        let mut case = Case::new(0, Class::A, "", "", "");
-        let mut row = || case.row("", 1.0, 1.0, Band::Part(0.1), 0);
-        assert!(row().is_prediction());
-        assert!(row().class(Class::C).is_prediction());
-        assert!(!row().class(Class::Own).is_prediction());
-        assert!(!row().fitted(&[Fit::Scas]).is_prediction());
-        assert!(!row().twice("above").is_prediction());
+        let counts = |mark: fn(&mut Row)| {
+            let mut case = Case::new(0, Class::A, "", "", "");
+            let row = case.row("", 1.0, 1.0, Band::Part(0.1), 0);
+            mark(row);
+            row.is_prediction()
+        };
+        assert!(counts(|_| ()));
+        assert!(counts(|row| _ = row.class(Class::C)));
+        assert!(!counts(|row| _ = row.class(Class::Own)));
+        assert!(!counts(|row| _ = row.fitted(&[Fit::Scas])));
+        assert!(!counts(|row| _ = row.twice("above")));
     }
 }
