@@ -2,19 +2,19 @@
 //!
 //! # Equations
 //! ```text
-//! X_k, Y_k          spectra of the k-th window, less its mean, under a Hann taper   [WELCH]
+//! X_k, Y_k          spectra of the k-th segment, less its mean, under a Hann taper   [WELCH]
 //! G_xx = Σ|X_k|²    G_yy = Σ|Y_k|²    G_xy = Σ X̄_k·Y_k
 //! H    = G_xy/G_xx                                                   the response   [BENDAT]
 //! γ²   = |G_xy|²/(G_xx·G_yy)                                        the coherence
-//! ε    = √((1 − γ²)/(2·n_d·γ²))             random error of the gain, n_d = record/window
+//! ε    = √((1 − γ²)/(2·n_d·γ²))             random error of the gain, n_d = record/segment
 //! ```
 //! # Signs
 //! Phase of the output before the input positive.
 //! # Assumptions
 //! The input is swept, or otherwise moves at every frequency of the band. At each frequency the shortest
-//! window of a ladder is taken that holds [`PERIODS`] of its periods, so that its resolution is a part of the
-//! frequency and the averages are many where they can be: what Tischler combines of several windows, picked.
-//! Windows overlap by three quarters.
+//! segment of a ladder is taken that holds [`PERIODS`] of its periods, so that its resolution is a part of the
+//! frequency and the averages are many where they can be: what Tischler combines of several segments, picked.
+//! Segments overlap by three quarters.
 //!
 //! What a feedback through the same input does (a pilot, a SCAS behind the measured stick) does not bias
 //! H unless there is noise on the output: then H is pulled towards the inverse of the feedback.
@@ -23,13 +23,13 @@ use engine::math::{PI, cos, max, min, sqrt};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-/// Periods that a window holds where the ladder has such a one.
+/// Periods that a segment holds where the ladder has such a one.
 pub const PERIODS: f64 = 12.0;
-/// A window holds no fewer periods of the lowest frequency.
+/// A segment holds no fewer periods of the lowest frequency.
 const PERIODS_LEAST: f64 = 2.0;
-/// Fewer windows than this, end to end, make no average.
-const WINDOWS_LEAST: f64 = 3.0;
-/// Windows begin this part of their length apart.
+/// Fewer segments than this, end to end, make no average.
+const SEGMENTS_LEAST: f64 = 3.0;
+/// Segments begin this part of their length apart.
 const HOP: f64 = 0.25;
 /// Samples in a period of the highest frequency after thinning out.
 const SAMPLES_A_PERIOD: f64 = 8.0;
@@ -49,13 +49,13 @@ pub struct Options {
     pub high_radps: f64,
     /// Frequencies in a decade.
     pub per_decade: f64,
-    /// One window for all frequencies, s, instead of the ladder.
-    pub window_s: Option<f64>,
+    /// One segment for all frequencies, s, instead of the ladder.
+    pub segment_s: Option<f64>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { low_radps: None, high_radps: 12.0, per_decade: 12.0, window_s: None }
+        Self { low_radps: None, high_radps: 12.0, per_decade: 12.0, segment_s: None }
     }
 }
 
@@ -70,8 +70,8 @@ pub struct Point {
     pub coherence: f64,
     /// Random error of the gain, a part of it.
     pub error: f64,
-    /// The window, s.
-    pub window_s: f64,
+    /// The segment, s.
+    pub segment_s: f64,
 }
 
 /// Why a record has no response.
@@ -80,7 +80,7 @@ pub enum Refusal {
     /// It does not carry the lowest frequency.
     #[error(
         "the record is too short: {have_s:.0} s, and {low_radps:.2} rad/s takes {needed_s:.0} s (three \
-         windows of two periods); fly longer, or ask for a higher lowest frequency"
+         segments of two periods); fly longer, or ask for a higher lowest frequency"
     )]
     TooShort {
         /// The record, s.
@@ -90,14 +90,14 @@ pub enum Refusal {
         /// The lowest frequency, rad/s.
         low_radps: f64,
     },
-    /// The window is too long for it, or too short for the band.
+    /// The segment is too long for it, or too short for the band.
     #[error(
-        "a window of {window_s:.1} s is not possible: the record of {have_s:.0} s and {low_radps:.2} rad/s \
+        "a segment of {segment_s:.1} s is not possible: the record of {have_s:.0} s and {low_radps:.2} rad/s \
          as the lowest frequency allow {least_s:.1} to {most_s:.1} s"
     )]
-    Window {
+    Segment {
         /// As asked, s.
-        window_s: f64,
+        segment_s: f64,
         /// The record, s.
         have_s: f64,
         /// The lowest frequency, rad/s.
@@ -157,7 +157,7 @@ pub fn estimate(
         return Err(Refusal::NotFinite);
     }
     let have_s = input.len().min(output.len()) as f64 * step_s;
-    let longest_s = have_s / WINDOWS_LEAST;
+    let longest_s = have_s / SEGMENTS_LEAST;
     let high_radps = options.high_radps;
     let low_radps = options
         .low_radps
@@ -165,7 +165,7 @@ pub fn estimate(
     let most_radps = PI / (4.0 * step_s);
     if options.low_radps.is_none() && low_radps >= high_radps {
         // Not even the highest frequency is carried.
-        let needed_s = WINDOWS_LEAST * PERIODS_LEAST * 2.0 * PI / high_radps;
+        let needed_s = SEGMENTS_LEAST * PERIODS_LEAST * 2.0 * PI / high_radps;
         return Err(Refusal::TooShort { have_s, needed_s, low_radps: high_radps });
     }
     if !(low_radps > 0.0 && low_radps < high_radps && high_radps <= most_radps) {
@@ -173,7 +173,7 @@ pub fn estimate(
     }
     let least_s = PERIODS_LEAST * 2.0 * PI / low_radps;
     if longest_s < least_s {
-        return Err(Refusal::TooShort { have_s, needed_s: WINDOWS_LEAST * least_s, low_radps });
+        return Err(Refusal::TooShort { have_s, needed_s: SEGMENTS_LEAST * least_s, low_radps });
     }
     if is_still(input) {
         return Err(Refusal::InputStill);
@@ -181,12 +181,12 @@ pub fn estimate(
     if is_still(output) {
         return Err(Refusal::OutputStill);
     }
-    let windows_s = match options.window_s {
-        Some(window_s) if window_s < least_s || window_s > longest_s => {
+    let segments_s = match options.segment_s {
+        Some(segment_s) if segment_s < least_s || segment_s > longest_s => {
             let most_s = longest_s;
-            return Err(Refusal::Window { window_s, have_s, low_radps, least_s, most_s });
+            return Err(Refusal::Segment { segment_s, have_s, low_radps, least_s, most_s });
         }
-        Some(window_s) => vec![window_s],
+        Some(segment_s) => vec![segment_s],
         None => ladder(longest_s, high_radps),
     };
 
@@ -196,18 +196,18 @@ pub fn estimate(
     let step_s = step_s * thin;
     let wanted = frequencies(low_radps, high_radps, options.per_decade);
     let picked = |omega: f64| {
-        let enough = |window_s: &&f64| **window_s * omega >= PERIODS * 2.0 * PI;
+        let enough = |segment_s: &&f64| **segment_s * omega >= PERIODS * 2.0 * PI;
         // From the longest to the shortest.
-        windows_s.iter().rev().find(enough).copied().unwrap_or(windows_s[0])
+        segments_s.iter().rev().find(enough).copied().unwrap_or(segments_s[0])
     };
     let mut points = Vec::new();
     let mut share = (0.0, 0.0);
-    for &window_s in &windows_s {
-        let spectra = Spectra::of(&input, &output, step_s, window_s, low_radps);
+    for &segment_s in &segments_s {
+        let spectra = Spectra::of(&input, &output, step_s, segment_s, low_radps);
         if points.is_empty() {
             share = spectra.share(low_radps, high_radps);
         }
-        let own = wanted.iter().filter(|&&omega| picked(omega).total_cmp(&window_s).is_eq());
+        let own = wanted.iter().filter(|&&omega| picked(omega).total_cmp(&segment_s).is_eq());
         points.extend(own.map(|&omega| spectra.at(omega, have_s)));
     }
     let percent = 100.0 * share.0 / share.1;
@@ -227,15 +227,15 @@ fn is_still(signal: &[f64]) -> bool {
     high - low <= STILL * max(high.abs(), low.abs())
 }
 
-/// The longest window, its half, and so on, as long as it holds enough of the highest frequency.
+/// The longest segment, its half, and so on, as long as it holds enough of the highest frequency.
 fn ladder(longest_s: f64, high_radps: f64) -> Vec<f64> {
-    let mut windows_s = vec![longest_s];
+    let mut segments_s = vec![longest_s];
     let mut next_s = 0.5 * longest_s;
     while next_s * high_radps > PERIODS * 2.0 * PI {
-        windows_s.push(next_s);
+        segments_s.push(next_s);
         next_s *= 0.5;
     }
-    windows_s
+    segments_s
 }
 
 /// From the lowest to the highest, evenly in the logarithm.
@@ -252,9 +252,9 @@ fn thinned(signal: &[f64], by: usize) -> Vec<f64> {
     signal.chunks_exact(by).map(|some| some.iter().sum::<f64>() / by as f64).collect()
 }
 
-/// Averaged spectra with one window.
+/// Averaged spectra with one segment.
 struct Spectra {
-    window_s: f64,
+    segment_s: f64,
     /// Between two lines, rad/s.
     spacing_radps: f64,
     xx: Vec<f64>,
@@ -263,10 +263,10 @@ struct Spectra {
 }
 
 impl Spectra {
-    fn of(input: &[f64], output: &[f64], step_s: f64, window_s: f64, low_radps: f64) -> Self {
-        let length = ((window_s / step_s).round() as usize).clamp(8, input.len());
+    fn of(input: &[f64], output: &[f64], step_s: f64, segment_s: f64, low_radps: f64) -> Self {
+        let length = ((segment_s / step_s).round() as usize).clamp(8, input.len());
         let hop = ((HOP * length as f64).round() as usize).max(1);
-        // Zeros behind the window bring a line near every frequency that is asked for.
+        // Zeros behind the segment bring a line near every frequency that is asked for.
         let fine = 2.0 * PI / (0.02 * low_radps * step_s);
         let size = length.max(fine as usize).next_power_of_two();
         let taper: Vec<f64> = (0..length)
@@ -275,7 +275,7 @@ impl Spectra {
         let fft = FftPlanner::new().plan_fft_forward(size);
         let lines = size / 2;
         let mut spectra = Self {
-            window_s,
+            segment_s,
             spacing_radps: 2.0 * PI / (size as f64 * step_s),
             xx: vec![0.0; lines],
             yy: vec![0.0; lines],
@@ -318,13 +318,13 @@ impl Spectra {
         let line = self.line(omega);
         let (xx, yy, xy) = (self.xx[line], self.yy[line], self.xy[line]);
         let coherence = if xx * yy > 0.0 { min(1.0, xy.norm_sqr() / (xx * yy)) } else { 0.0 };
-        let averages = record_s / self.window_s;
+        let averages = record_s / self.segment_s;
         let error = sqrt((1.0 - coherence) / (2.0 * averages * max(coherence, 1e-12)));
         let response = if xx > 0.0 { xy / xx } else { Complex::new(0.0, 0.0) };
         let omega_radps = line as f64 * self.spacing_radps;
-        let point = Point { omega_radps, response, coherence, error, window_s: self.window_s };
-        // Per second of window, so that those of different length compare.
-        (point, xx / (self.window_s * self.window_s))
+        let point = Point { omega_radps, response, coherence, error, segment_s: self.segment_s };
+        // Per second of segment, so that those of different length compare.
+        (point, xx / (self.segment_s * self.segment_s))
     }
 }
 

@@ -93,8 +93,8 @@ fn what_carries_no_response_is_refused_in_words() {
     let above = Options { low_radps: Some(60.0), high_radps: 120.0, ..wanted };
     let unswept = refused(&input, &input, &above);
     assert!(matches!(unswept, Refusal::NotSwept { .. }), "{unswept}");
-    let odd = Options { window_s: Some(200.0), ..wanted };
-    assert!(matches!(refused(&input, &input, &odd), Refusal::Window { .. }));
+    let odd = Options { segment_s: Some(200.0), ..wanted };
+    assert!(matches!(refused(&input, &input, &odd), Refusal::Segment { .. }));
     let turned = Options { low_radps: Some(20.0), ..wanted };
     assert!(matches!(refused(&input, &input, &turned), Refusal::Band { .. }));
     let mut hole = input.clone();
