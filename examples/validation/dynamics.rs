@@ -34,7 +34,7 @@ const HOVER_HEAVE: Transfer =
     Transfer { numerator: &[-0.0098, 0.0], denominator: &[1.0, 0.105], delay_s: 0.0074 };
 
 /// The same, aeroplane at 170 KIAS, 8,000 ft.
-const CRUISE_PITCH: Transfer =
+pub const CRUISE_PITCH: Transfer =
     Transfer { numerator: &[-7.38, -6.568], denominator: &[1.0, 2.165, 4.080], delay_s: 0.005 };
 
 impl Transfer {
@@ -62,7 +62,7 @@ pub fn pitch_over_elevator(
 }
 
 /// Phase within ±180° of another.
-fn near_deg(phase_deg: f64, other_deg: f64) -> f64 {
+pub fn near_deg(phase_deg: f64, other_deg: f64) -> f64 {
     let turns = ((other_deg - phase_deg) / 360.0).round();
     phase_deg + 360.0 * turns
 }
@@ -106,9 +106,13 @@ pub fn hovering(aircraft: &Aircraft) -> Result<(Trim, Linear), String> {
     system(aircraft, &Target::default())
 }
 
+/// 180 KCAS at 8,000 ft as true airspeed, the density ratio being .786.
+pub fn cruise_kt() -> f64 {
+    180.0 / sqrt(0.786)
+}
+
 fn cruising(aircraft: &Aircraft) -> Result<(Trim, Linear), String> {
-    // 180 KCAS at 8,000 ft, the density ratio being .786.
-    let airspeed_mps = 180.0 * KNOT_MPS / sqrt(0.786);
+    let airspeed_mps = cruise_kt() * KNOT_MPS;
     let target = Target {
         mast_tilt_rad: 0.5 * PI,
         airspeed_mps,

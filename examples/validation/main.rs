@@ -10,6 +10,7 @@ mod dynamics;
 mod fits;
 mod flown;
 mod hover;
+mod identified;
 mod page;
 mod performance;
 mod pictures;
@@ -40,6 +41,7 @@ fn generate() -> Vec<(String, String)> {
     dynamics::symmetry(&aircraft, &mut book);
     performance::autorotation(&aircraft, &mut book);
     airframe::components(&aircraft, &mut book);
+    identified::responses(&aircraft, &mut book);
     let mut files = pictures::all(&aircraft);
     files.push(("VALIDATION.md".into(), page::page(&book)));
     files

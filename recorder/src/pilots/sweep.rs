@@ -3,7 +3,7 @@
 //!
 //! # Equations
 //! ```text
-//! δ = δ₀ + A·fade(t)·sin φ(t) + hold         φ̇ = ω₀ for one period, then ω₀·e^{gt} up to ω₁   [TISCHLER]
+//! δ = δ₀ + A·fade(t)·sin φ(t) + hold         φ̇ = ω₀ for one period, then ω₀·e^{gt} up to ω₁
 //! hold: aft     k_θ·(θ₀ + k_u·(u − u₀) − θ) − k_q·q       right  k_φ·(φ₀ − k_v·(v − v₀) − φ) − k_p·p
 //!       pedal   k_ψ·(ψ₀ − ψ) − k_r·r                      lever  k_h·(h₀ − h) − k_ḣ·ḣ
 //! ```
@@ -27,11 +27,14 @@ const RISE_S: f64 = 80.0;
 const REST_S: f64 = 9.0;
 /// Growing and dying away, s.
 const FADE_S: f64 = 3.0;
-/// Amplitude where the air does not help: .3 in of stick, .2 in of pedal, .3 in of lever, as parts of
-/// the travel.
+/// Amplitude with some speed, before it becomes lighter with dynamic pressure: .3 in of stick, .2 in of
+/// pedal, and .3 in of lever, as parts of the travel.
 const STICK_NORM: f64 = 0.062;
 const PEDAL_NORM: f64 = 0.08;
 const LEVER_NORM: f64 = 0.03;
+/// Part of it over a spot, where nothing but the pilot damps: .3 in of stick sway a hover by 9 kt and 16 deg,
+/// and its derivatives are others there.
+const OVER_A_SPOT: f64 = 0.25;
 /// Dynamic pressure at which half of everything does, Pa.
 const LIGHT_PA: f64 = 1500.0;
 /// Attitude that the hold asks for because of a speed, rad.
@@ -144,7 +147,7 @@ impl Steady {
                 + upright * (0.015 * (self.height_m + seen.position_m.z) - 0.02 * eyes.climb_mps),
         };
         if let Some((axis, time_s)) = sweep {
-            let wave = wave(time_s);
+            let wave = wave(time_s) * (1.0 - (1.0 - OVER_A_SPOT) * slow);
             match axis {
                 Axis::Pitch => to.stick_aft_norm += STICK_NORM * light * wave,
                 Axis::Roll => to.stick_right_norm += STICK_NORM * light * wave,

@@ -2,9 +2,9 @@
 //!
 //! # Equations
 //! ```text
-//! X_k, Y_k          spectra of the k-th segment, less its mean, under a Hann taper   [WELCH]
+//! X_k, Y_k          spectra of the k-th segment, less its mean, under a Hann taper
 //! G_xx = Σ|X_k|²    G_yy = Σ|Y_k|²    G_xy = Σ X̄_k·Y_k
-//! H    = G_xy/G_xx                                                   the response   [BENDAT]
+//! H    = G_xy/G_xx                                                   the response
 //! γ²   = |G_xy|²/(G_xx·G_yy)                                        the coherence
 //! ε    = √((1 − γ²)/(2·n_d·γ²))             random error of the gain, n_d = record/segment
 //! ```
@@ -16,8 +16,14 @@
 //! frequency and the averages are many where they can be: what Tischler combines of several segments, picked.
 //! Segments overlap by three quarters.
 //!
+//! Below [`PERIODS`] of them resolution is coarse: a mode with little damping is smeared over what a segment
+//! cannot tell apart, and the coherence falls where it is.
+//!
 //! What a feedback through the same input does (a pilot, a SCAS behind the measured stick) does not bias
 //! H unless there is noise on the output: then H is pulled towards the inverse of the feedback.
+//! # Source
+//! Bendat, Piersol, *Random Data*, 4th ed.: spectra, coherence, random error. Tischler, Remple, *Aircraft and
+//! Rotorcraft System Identification*, 2nd ed.: sweeps, segments of several lengths.
 
 use engine::math::{PI, cos, max, min, sqrt};
 use rustfft::FftPlanner;
@@ -26,7 +32,7 @@ use rustfft::num_complex::Complex;
 /// Periods that a segment holds where the ladder has such a one.
 pub const PERIODS: f64 = 12.0;
 /// A segment holds no fewer periods of the lowest frequency.
-const PERIODS_LEAST: f64 = 2.0;
+const PERIODS_LEAST: f64 = 4.0;
 /// Fewer segments than this, end to end, make no average.
 const SEGMENTS_LEAST: f64 = 3.0;
 /// Segments begin this part of their length apart.
@@ -80,7 +86,7 @@ pub enum Refusal {
     /// It does not carry the lowest frequency.
     #[error(
         "the record is too short: {have_s:.0} s, and {low_radps:.2} rad/s takes {needed_s:.0} s (three \
-         segments of two periods); fly longer, or ask for a higher lowest frequency"
+         segments of four periods); fly longer, or ask for a higher lowest frequency"
     )]
     TooShort {
         /// The record, s.

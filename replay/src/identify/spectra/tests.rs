@@ -83,10 +83,10 @@ fn what_carries_no_response_is_refused_in_words() {
     let refused = |input: &[f64], output: &[f64], options: &Options| {
         estimate(input, output, STEP_S, options).unwrap_err()
     };
-    let wanted = Options { low_radps: Some(0.2), ..Options::default() };
+    let wanted = Options { low_radps: Some(0.3), ..Options::default() };
     let short = refused(&input[..5000], &input[..5000], &wanted);
     assert!(matches!(short, Refusal::TooShort { .. }), "{short}");
-    assert!(short.to_string().contains("20 s, and 0.20 rad/s takes 188 s"), "{short}");
+    assert!(short.to_string().contains("20 s, and 0.30 rad/s takes 251 s"), "{short}");
     let still = vec![0.25; input.len()];
     assert_eq!(refused(&still, &input, &wanted), Refusal::InputStill);
     assert_eq!(refused(&input, &still, &wanted), Refusal::OutputStill);
