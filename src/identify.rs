@@ -29,17 +29,17 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     output: String,
     /// Lowest frequency, rad/s (without: the lowest that the record's length carries)
-    #[arg(long, value_name = "RADPS", value_parser = between(0.001, 300.0, "rad/s"))]
+    #[arg(long, value_name = "RADPS", value_parser = between(0.001, 300.0, "rad/s"), allow_negative_numbers = true)]
     low: Option<f64>,
     /// Highest frequency, rad/s
     #[arg(long, value_name = "RADPS", default_value_t = Options::default().high_radps)]
-    #[arg(value_parser = between(0.01, 190.0, "rad/s"))]
+    #[arg(value_parser = between(0.01, 190.0, "rad/s"), allow_negative_numbers = true)]
     high: f64,
     /// Frequencies in a decade
-    #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = between(1.0, 200.0, "frequencies"))]
+    #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = between(1.0, 200.0, "frequencies"), allow_negative_numbers = true)]
     per_decade: f64,
     /// One segment length for all frequencies, s, instead of one that goes with the frequency
-    #[arg(long, value_name = "SECONDS", value_parser = between(0.1, 1e5, "s"))]
+    #[arg(long, value_name = "SECONDS", value_parser = between(0.1, 1e5, "s"), allow_negative_numbers = true)]
     segment: Option<f64>,
     /// Write the response to a file, units in the names
     #[arg(long, value_name = "FILE")]
