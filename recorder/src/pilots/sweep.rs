@@ -32,8 +32,8 @@ const FADE_S: f64 = 3.0;
 const STICK_NORM: f64 = 0.062;
 const PEDAL_NORM: f64 = 0.08;
 const LEVER_NORM: f64 = 0.03;
-/// Part of it over a spot, where nothing but the pilot damps: .3 in of stick sway a hover by 9 kt and 16 deg,
-/// and its derivatives are others there.
+/// Part of it over a spot from 1 rad/s on, and less in proportion below: slow movements sway a hover far,
+/// .3 in of stick at .3 rad/s by 9 kt and 16 deg, and its derivatives are others at 2 kt already.
 const OVER_A_SPOT: f64 = 0.25;
 /// Dynamic pressure at which half of everything does, Pa.
 const LIGHT_PA: f64 = 1500.0;
@@ -73,6 +73,12 @@ pub fn length_s() -> f64 {
 
 fn first_period_s() -> f64 {
     2.0 * PI / BAND_RADPS[0]
+}
+
+/// How fast it is by then, rad/s.
+fn frequency_radps(time_s: f64) -> f64 {
+    let [low, high] = BAND_RADPS;
+    low * exp(ln(high / low) * ramp(time_s - first_period_s(), 0.0, RISE_S))
 }
 
 /// Between −1 and 1, by the time since the sweep began.
@@ -138,16 +144,21 @@ impl Steady {
         );
         let mut to = Positions {
             stick_aft_norm: self.hands.stick_aft_norm
-                + light * (0.4 * (self.pitch_rad + nose_rad - euler.pitch_rad) - 0.3 * rate.y),
+                + light
+                    * ((0.4 + 0.8 * slow) * (self.pitch_rad + nose_rad - euler.pitch_rad)
+                        - (0.3 + 0.7 * slow) * rate.y),
             stick_right_norm: self.hands.stick_right_norm
-                + light * (0.35 * (self.roll_rad + bank_rad - euler.roll_rad) - 0.2 * rate.x),
+                + light
+                    * ((0.35 + 0.65 * slow) * (self.roll_rad + bank_rad - euler.roll_rad)
+                        - (0.2 + 0.6 * slow) * rate.x),
             pedal_right_norm: self.hands.pedal_right_norm
                 + slow * (0.9 * heading_off_rad - 1.5 * rate.z),
             lever_norm: self.hands.lever_norm
                 + upright * (0.015 * (self.height_m + seen.position_m.z) - 0.02 * eyes.climb_mps),
         };
         if let Some((axis, time_s)) = sweep {
-            let wave = wave(time_s) * (1.0 - (1.0 - OVER_A_SPOT) * slow);
+            let part = OVER_A_SPOT * min(1.0, frequency_radps(time_s));
+            let wave = wave(time_s) * (1.0 - (1.0 - part) * slow);
             match axis {
                 Axis::Pitch => to.stick_aft_norm += STICK_NORM * light * wave,
                 Axis::Roll => to.stick_right_norm += STICK_NORM * light * wave,
