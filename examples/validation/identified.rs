@@ -1,6 +1,7 @@
 //! Frequency responses as flight test finds them: swept by a pilot model through raw device events, and
 //! identified from what was flown.
 
+use analysis::Polar;
 use analysis::linearize::decibels;
 use engine::{Aircraft, STEP_S};
 use recorder::pilots::Pilot;
@@ -57,8 +58,8 @@ fn rows(case: &mut Case, name: &str, aircraft: &Aircraft, steady: &str, publishe
                 .ok_or_else(|| "not excited".to_owned())
         });
         let reference = published.at(nearest.as_ref().map_or(omega, |point| point.omega_radps));
-        let reference_db = decibels(analysis::Polar::magnitude(&reference));
-        let reference_deg = analysis::Polar::phase_rad(&reference) * DEG;
+        let reference_db = decibels(reference.magnitude());
+        let reference_deg = reference.phase_rad() * DEG;
         let response = nearest.map(|point| point.response / gearing);
         let gain = response.as_ref().map(|g| decibels(g.norm())).map_err(Clone::clone);
         case.row(format!("{name} at {omega} rad/s, dB"), reference_db, gain, Band::Within(3.0), 1)
