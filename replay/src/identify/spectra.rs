@@ -33,6 +33,9 @@ use rustfft::num_complex::Complex;
 pub const PERIODS: f64 = 12.0;
 /// A segment holds no fewer periods of the lowest frequency.
 const PERIODS_LEAST: f64 = 4.0;
+/// And so many of the lowest that is taken where none is asked for: with fewer the taper smears a sharp mode,
+/// which the coherence does not tell.
+const PERIODS_OWN: f64 = 8.0;
 /// Fewer segments than this, end to end, make no average.
 const SEGMENTS_LEAST: f64 = 3.0;
 /// Segments begin this part of their length apart.
@@ -167,7 +170,7 @@ pub fn estimate(
     let high_radps = options.high_radps;
     let low_radps = options
         .low_radps
-        .unwrap_or_else(|| max(0.1, 1.000_001 * PERIODS_LEAST * 2.0 * PI / max(longest_s, step_s)));
+        .unwrap_or_else(|| max(0.1, PERIODS_OWN * 2.0 * PI / max(longest_s, step_s)));
     let most_radps = PI / (4.0 * step_s);
     if options.low_radps.is_none() && low_radps >= high_radps {
         // Not even the highest frequency is carried.
