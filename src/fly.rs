@@ -42,7 +42,8 @@ pub struct Args {
     /// Fly with the sticks that are plugged in
     #[arg(long)]
     stick: bool,
-    /// Let a pilot model fly: hover, demo, takeoff, convert, turn, reconvert, land
+    /// Let a pilot model fly: hover, demo, takeoff, convert, turn, reconvert, land,
+    /// sweep-pitch, sweep-roll, sweep-yaw, sweep-lever
     #[arg(long, value_name = "NAME")]
     pilot: Option<String>,
     /// Play the timed events of a file
@@ -125,6 +126,9 @@ struct Air {
     #[arg(long, value_name = "RPM", requires = "from_trim")]
     #[arg(value_parser = numbers::rotor_rpm, allow_negative_numbers = true)]
     rpm: Option<f64>,
+    /// SCAS off from the beginning: the bare airframe
+    #[arg(long, requires = "from_trim")]
+    scas_off: bool,
 }
 
 /// What `fly` and `demo` have in common.
@@ -381,11 +385,12 @@ impl Plan {
         scenario.push_str(&format!(
             "\n[trim] # by --from-trim\nmast_tilt_deg = {:?}\nairspeed_kt = {:?}\n\
              altitude_ft = {:?}\nclimb_fpm = {:?}\nflap_detent = {detent}\n\
-             rpm_select = {rpm_select}\nscas_on = 1\n",
+             rpm_select = {rpm_select}\nscas_on = {}\n",
             90.0 - nacelle_deg,
             air.speed_kt,
             air.altitude_ft,
             air.climb_fpm,
+            u64::from(!air.scas_off),
         ));
         self.flight.start = aircraft::start("scenario.toml", scenario)?;
         Ok(())

@@ -13,6 +13,7 @@ mod doctor;
 mod flightgear;
 mod fly;
 mod ground;
+mod identify;
 mod identity;
 mod json;
 mod linearize;
@@ -74,6 +75,8 @@ enum Command {
     /// Small motions about a steady flight: modes, frequency responses, state-space matrices. Exit 0
     /// solved, 5 no steady flight, or not converged.
     Linearize(linearize::Args),
+    /// What a flown sweep says: frequency response and coherence of two recorded signals.
+    Identify(identify::Args),
     /// What this machine can hold in real time, and what to change.
     Doctor(doctor::Args),
     /// Start FlightGear with our aircraft, and wait until it is ready.
@@ -126,6 +129,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Log(command) => log::run(&command),
         Command::Trim(args) => trim::run(&args),
         Command::Linearize(args) => linearize::run(&args),
+        Command::Identify(args) => identify::run(&args),
         Command::Doctor(args) => doctor::run(&args),
         Command::Flightgear(args) => flightgear::run(&args),
         Command::Demo(args) => demo::run(&args),

@@ -50,6 +50,7 @@ const VERBS: &[(&str, &[Status])] = &[
     ("trim", &[Done, Unusable, NotConverged]),
     ("doctor", &[Done, Unusable]),
     ("linearize", &[Done, Unusable, NotConverged]),
+    ("identify", &[Done, Differs, Unusable, NeverClosed]),
 ];
 
 /// Verbs that take several logs.

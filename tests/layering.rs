@@ -35,6 +35,7 @@ const KEPT: &[(&str, &str)] = &[
     ("parquet", "logs"),
     ("png", "flightgear-package"),
     ("rerun", "replay"),
+    ("rustfft", "replay"),
     ("udev", "recorder"),
     ("zerocopy", "flightgear"),
 ];

@@ -12,8 +12,10 @@ use common::{UNUSABLE, folder, hover, text, tiltrotor};
 const NEVER: [&str; 7] = ["nan", "inf", "-inf", "1e300", "-1e300", "-1e9", "fast"];
 
 /// How options that take numbers call them in the help.
-const NUMBERS: [&str; 12] =
-    ["KT", "DEG", "FPM", "FT", "LB", "K", "RPM", "PERCENT", "DEGPS", "SECONDS", "N", "SPEED"];
+const NUMBERS: [&str; 13] = [
+    "KT", "DEG", "FPM", "FT", "LB", "K", "RPM", "PERCENT", "DEGPS", "SECONDS", "N", "SPEED",
+    "RADPS",
+];
 
 /// Verbs with an option that takes a number, by the help.
 fn options(verb: &[&str]) -> Vec<(String, String)> {
@@ -28,6 +30,7 @@ fn options(verb: &[&str]) -> Vec<(String, String)> {
 /// What each verb needs beside the option that is tried.
 fn verbs(log: &str) -> Vec<(Vec<&'static str>, Vec<String>)> {
     let log = || vec![log.to_string()];
+    let signals = ["--input", "stick_aft", "--output", "pitch_rate"];
     let from_trim = ["--from-trim", "--pilot", "hover", "--fast", "--out", "absent/flight.mcap"];
     vec![
         (vec!["fly"], from_trim.map(String::from).to_vec()),
@@ -51,6 +54,7 @@ fn verbs(log: &str) -> Vec<(Vec<&'static str>, Vec<String>)> {
         (vec!["flightgear"], vec!["--print".into()]),
         (vec!["trim"], vec![]),
         (vec!["linearize"], vec![]),
+        (vec!["identify"], [log(), signals.map(String::from).to_vec()].concat()),
     ]
 }
 

@@ -9,7 +9,10 @@ use engine::math::{PI, cos, sin, sqrt};
 use engine::symmetry::Mirror;
 use engine::{Aircraft, Inputs, State};
 
-use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, RPM_RADPS, SLUG_FT2_KG_M2};
+use crate::book::{
+    Band, Book, Case, Class, DEG, FOOT_M, INCH_M, KNOT_MPS, RPM_RADPS, SLUG_FT2_KG_M2,
+};
+use crate::fits::Fit;
 use crate::trims::why;
 
 /// A published transfer function: polynomials of s, highest power first, and a delay in s.
@@ -31,7 +34,7 @@ const HOVER_HEAVE: Transfer =
     Transfer { numerator: &[-0.0098, 0.0], denominator: &[1.0, 0.105], delay_s: 0.0074 };
 
 /// The same, aeroplane at 170 KIAS, 8,000 ft.
-const CRUISE_PITCH: Transfer =
+pub const CRUISE_PITCH: Transfer =
     Transfer { numerator: &[-7.38, -6.568], denominator: &[1.0, 2.165, 4.080], delay_s: 0.005 };
 
 impl Transfer {
@@ -59,7 +62,7 @@ pub fn pitch_over_elevator(
 }
 
 /// Phase within ±180° of another.
-fn near_deg(phase_deg: f64, other_deg: f64) -> f64 {
+pub fn near_deg(phase_deg: f64, other_deg: f64) -> f64 {
     let turns = ((other_deg - phase_deg) / 360.0).round();
     phase_deg + 360.0 * turns
 }
@@ -69,6 +72,7 @@ fn compare(
     name: &str,
     omegas: &[f64],
     published: &Transfer,
+    fits: &'static [Fit],
     ours: impl Fn(f64) -> Result<Complex, String>,
 ) {
     for &omega in omegas {
@@ -76,7 +80,8 @@ fn compare(
         let found = ours(omega);
         let reference_db = decibels(reference.magnitude());
         let gain = found.as_ref().map(|g| decibels(g.magnitude())).map_err(Clone::clone);
-        case.row(format!("{name} at {omega} rad/s, dB"), reference_db, gain, Band::Within(3.0), 1);
+        case.row(format!("{name} at {omega} rad/s, dB"), reference_db, gain, Band::Within(3.0), 1)
+            .fitted(fits);
         let reference_deg = reference.phase_rad() * DEG;
         let phase = found.map(|g| near_deg(g.phase_rad() * DEG, reference_deg));
         case.row(
@@ -85,7 +90,8 @@ fn compare(
             phase,
             Band::Within(20.0),
             0,
-        );
+        )
+        .fitted(fits);
     }
 }
 
@@ -100,9 +106,13 @@ pub fn hovering(aircraft: &Aircraft) -> Result<(Trim, Linear), String> {
     system(aircraft, &Target::default())
 }
 
+/// 180 KCAS at 8,000 ft as true airspeed, the density ratio being .786.
+pub fn cruise_kt() -> f64 {
+    180.0 / sqrt(0.786)
+}
+
 fn cruising(aircraft: &Aircraft) -> Result<(Trim, Linear), String> {
-    // 180 KCAS at 8,000 ft, the density ratio being .786.
-    let airspeed_mps = 180.0 * KNOT_MPS / sqrt(0.786);
+    let airspeed_mps = cruise_kt() * KNOT_MPS;
     let target = Target {
         mast_tilt_rad: 0.5 * PI,
         airspeed_mps,
@@ -127,8 +137,9 @@ fn mode(found: &Result<(Trim, Linear), String>, name: &str) -> Result<Mode, Stri
 pub fn responses(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         9,
+        Class::A,
         "frequency responses and modes, SCAS off",
-        "Class A: identified in flight, NASA TM-89428. Hover, and aeroplane at 170 KIAS (180 KCAS), 8,000 ft.",
+        "Identified in flight, NASA TM-89428. Hover, and aeroplane at 170 KIAS (180 KCAS), 8,000 ft.",
         "±3 dB and ±20 deg within the band of validity: what handling-quality work calls a good model. \
          Poles ±15 % and ±.1 of damping ratio. Weight 13,000 lb, centre of gravity aft, 458 rpm in cruise.\n\n\
          Hover, pitch: from 1 rad/s on it is the control's power over the inertia, and agrees. Below, it is \
@@ -152,26 +163,30 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
         pitch_over_elevator(aircraft, linear, omega).map_err(|why| why.to_string())
     };
     let band = [0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0];
-    compare(&mut case, "hover q/δe", &band, &HOVER_PITCH, |omega| of(&hover, omega));
-    compare(&mut case, "cruise q/δe", &band[1..], &CRUISE_PITCH, |omega| of(&cruise, omega));
+    compare(&mut case, "hover q/δe", &band, &HOVER_PITCH, &[], |omega| of(&hover, omega));
+    compare(&mut case, "cruise q/δe", &band[1..], &CRUISE_PITCH, &[], |omega| of(&cruise, omega));
+    const HEAVE_FITS: &[Fit] = &[Fit::Governor, Fit::LeverLaw];
+    const OF_THE_SAME: &str = "the response it is a pole of";
     // One per cent of the lever; the accelerometer reads the specific force.
     let percent = 0.01 * aircraft.fcc.travel.collective_m / engine::GRAVITY_MPS2;
-    compare(&mut case, "hover a_z/lever", &band[..8], &HOVER_HEAVE, |omega| {
+    compare(&mut case, "hover a_z/lever", &band[..8], &HOVER_HEAVE, HEAVE_FITS, |omega| {
         let (_, linear) = hover.as_ref().map_err(Clone::clone)?;
         linear.response(3, 10, omega).map(|g| g * percent).map_err(|why| why.to_string())
     });
     let pitching = mode(&hover, "hover oscillation in pitch");
     let omega = pitching.as_ref().map(Mode::frequency_radps).map_err(Clone::clone);
-    case.row("hover oscillation ω, rad/s", 0.579, omega, Band::Part(0.15), 3);
+    case.row("hover oscillation ω, rad/s", 0.579, omega, Band::Part(0.15), 3).twice(OF_THE_SAME);
     let growth = pitching.map(|mode| mode.eigenvalue.re);
-    case.row("hover oscillation σ, 1/s", 0.268, growth, Band::Within(0.08), 3);
+    case.row("hover oscillation σ, 1/s", 0.268, growth, Band::Within(0.08), 3).twice(OF_THE_SAME);
     let heave = mode(&hover, "heave").map(|mode| -mode.eigenvalue.re);
-    case.row("hover heave damping, 1/s", 0.105, heave, Band::Part(0.25), 3);
+    case.row("hover heave damping, 1/s", 0.105, heave, Band::Part(0.25), 3)
+        .fitted(HEAVE_FITS)
+        .twice(OF_THE_SAME);
     let short = mode(&cruise, "short period");
     let omega = short.as_ref().map(Mode::frequency_radps).map_err(Clone::clone);
-    case.row("cruise short period ω, rad/s", 2.02, omega, Band::Part(0.15), 2);
+    case.row("cruise short period ω, rad/s", 2.02, omega, Band::Part(0.15), 2).twice(OF_THE_SAME);
     let zeta = short.map(|mode| mode.damping());
-    case.row("cruise short period ζ", 0.536, zeta, Band::Within(0.1), 3);
+    case.row("cruise short period ζ", 0.536, zeta, Band::Within(0.1), 3).twice(OF_THE_SAME);
     book.add(case);
 }
 
@@ -219,11 +234,13 @@ fn second_after_an_inch(aircraft: &Aircraft, target: &Target, trim: &Trim, axis:
 pub fn control(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         10,
+        Class::C,
         "hover control, SCAS off and on",
-        "Class C: NASA TM X-62,407 Table 8.3.2, before the first flight.",
+        "NASA TM X-62,407 Table 8.3.2, before the first flight.",
         "±25 %, sanity only. Ours is flown here with what the table belongs to, the inertia of 1975 (42,400, \
          14,300 and 49,500 slug ft² for 52,795, 21,360 and 66,335) and its 565 rpm; rotors, gearing and \
-         SCAS are those of every other case.\n\n\
+         SCAS are those of every other case. The gains of the SCAS were solved back from this very table, \
+         so that the nine numbers with it predict nothing.\n\n\
          The table does not agree with itself, so that nobody can with all of it. An acceleration S against a \
          damping D turns by S/D·(1 − (1 − exp(−D))/D) in a second: roll off, .471 and .77 make 10.6 deg, not \
          6.6; yaw on, .328 makes 9.4 deg with no damping at all, not 15.0; roll on, .489 and 1.82 make 8.3 \
@@ -238,13 +255,14 @@ pub fn control(aircraft: &Aircraft, book: &mut Book) {
     for (name, scas_on, attitudes, dampings, sensitivities) in TMX {
         let target = Target { scas_on, ..Target::default() };
         let found = system(aircraft, &target);
+        let fits: &[Fit] = if scas_on == 1 { &[Fit::Scas] } else { &[] };
         for (axis, label) in axes.iter().enumerate() {
             let attitude = found
                 .as_ref()
                 .map(|(trim, _)| second_after_an_inch(aircraft, &target, trim, axis))
                 .map_err(Clone::clone);
             let what = format!("SCAS {name}, {label} after 1 s, deg/in");
-            case.row(what, attitudes[axis], attitude, Band::Part(0.25), 1);
+            case.row(what, attitudes[axis], attitude, Band::Part(0.25), 1).fitted(fits);
             let derivatives = found.as_ref().map_err(Clone::clone).map(|(_, linear)| {
                 let slow = linear
                     .quasi_steady(|state| matches!(state.part(), Part::Rotors | Part::Actuators));
@@ -254,10 +272,10 @@ pub fn control(aircraft: &Aircraft, book: &mut Book) {
             });
             let damping = derivatives.as_ref().map(|(damping, _)| *damping).map_err(Clone::clone);
             let what = format!("SCAS {name}, {label} damping, 1/s");
-            case.row(what, dampings[axis], damping, Band::Part(0.25), 3);
+            case.row(what, dampings[axis], damping, Band::Part(0.25), 3).fitted(fits);
             let sensitivity = derivatives.map(|(_, sensitivity)| sensitivity);
             let what = format!("SCAS {name}, {label} sensitivity, rad/s²/in");
-            case.row(what, sensitivities[axis], sensitivity, Band::Part(0.25), 3);
+            case.row(what, sensitivities[axis], sensitivity, Band::Part(0.25), 3).fitted(fits);
         }
     }
     book.add(case);
@@ -267,6 +285,7 @@ pub fn control(aircraft: &Aircraft, book: &mut Book) {
 pub fn symmetry(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         12,
+        Class::Own,
         "left and right exchanged",
         "No source: what mirrors must fly as the mirror image.",
         "Exact, to the bit: 500 ticks with stick and pedal over, and the same mirrored.",

@@ -5,7 +5,8 @@ use engine::{Aircraft, Outputs, STEP_S};
 use recorder::pilots::Pilot;
 use recorder::rehearse;
 
-use crate::book::{Band, Case, FOOT_M, INCH_M, KNOT_MPS};
+use crate::book::{Band, Case, Class, FOOT_M, INCH_M, KNOT_MPS};
+use crate::fits::Fit;
 
 /// Nacelles nearer to down than this are down, rad.
 const DOWN_RAD: f64 = 0.002;
@@ -96,27 +97,31 @@ pub fn conversion(aircraft: &Aircraft, case: &mut Case) {
     let flown = fly(aircraft);
     let number = |of: fn(&Conversion) -> f64| flown.as_ref().map(of).map_err(Clone::clone);
     let stick_in = aircraft.fcc.travel.longitudinal_stick_m / INCH_M;
-    case.row("flown at 7.5 deg/s: time, s", 12.0, number(|c| c.time_s), Band::Within(2.0), 1);
+    // The published rate over the published travel.
+    case.row("flown at 7.5 deg/s: time, s", 12.0, number(|c| c.time_s), Band::Within(2.0), 1)
+        .class(Class::A);
     case.row(
         "flown: least distance inside the corridor, kt (more than)",
         0.0,
         number(|c| c.inside_mps / KNOT_MPS),
-        Band::Between(0.0, 100.0),
+        Band::AtLeast(0.0),
         1,
-    );
+    )
+    .class(Class::A)
+    .fitted(&[Fit::Pilot]);
     case.row(
         "flown: stick travel, in (less than)",
         3.0,
         number(|c| c.stick_norm.1 - c.stick_norm.0).map(|travel| travel * stick_in),
-        Band::Between(0.0, 3.0),
+        Band::AtMost(3.0),
         2,
     );
     case.row(
         "flown: most of its travel that a control uses, % (less than)",
         100.0,
         number(|c| 100.0 * c.travel_used),
-        Band::Between(0.0, 99.9),
-        0,
+        Band::AtMost(99.9),
+        2,
     );
     case.row(
         "flown: fastest within 5 s of nacelles down, kt",
@@ -124,12 +129,14 @@ pub fn conversion(aircraft: &Aircraft, case: &mut Case) {
         number(|c| c.airspeed_mps / KNOT_MPS),
         Band::Within(10.0),
         0,
-    );
+    )
+    .fitted(&[Fit::Pilot]);
     case.row(
         "flown: height left and regained, ft (level)",
         0.0,
         number(|c| (c.height_m.1 - c.height_m.0) / FOOT_M),
         Band::Within(100.0),
         0,
-    );
+    )
+    .fitted(&[Fit::Pilot]);
 }

@@ -7,7 +7,8 @@ use engine::inputs::World;
 use engine::math::{sqrt, square};
 use engine::pair::Pair;
 
-use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, PI, POUND_N};
+use crate::book::{Band, Book, Case, Class, DEG, FOOT_M, INCH_M, PI, POUND_N};
+use crate::fits::Fit;
 use crate::weighing;
 
 /// Ticks until a held rotor is steady.
@@ -74,8 +75,9 @@ const OARF: [(f64, f64, f64); 6] = [
 pub fn isolated_rotor(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         1,
+        Class::A,
         "isolated rotor in hover, tip speed 768 ft/s",
-        "Class A: OARF run 15, original blades, NASA CR-2017-219486 Table A-2.",
+        "OARF run 15, original blades, NASA CR-2017-219486 Table A-2.",
         "Figure of merit ±.02 is half of what the two test facilities disagree by; power ±3 % is that \
          of the balance. Collective has another zero in every source: only its slope is compared. The \
          stand has neither wing nor neighbour: what those cost in hover is left out here.",
@@ -86,12 +88,16 @@ pub fn isolated_rotor(aircraft: &Aircraft, book: &mut Book) {
         let merit = c_t * sqrt(0.5 * c_t) / c_p;
         let Some(at) = on_stand_at(aircraft, tip_mps, c_t) else {
             let no = || Err("the rotor does not reach this thrust".to_owned());
-            case.row(format!("figure of merit at C_T {c_t}"), merit, no(), Band::Within(0.02), 3);
+            case.row(format!("figure of merit at C_T {c_t}"), merit, no(), Band::Within(0.02), 3)
+                .fitted(&[Fit::InducedPower]);
             continue;
         };
         let ours = at.figure_of_merit();
-        case.row(format!("figure of merit at C_T {c_t}"), merit, ours, Band::Within(0.02), 3);
-        case.row(format!("C_P·10⁶ at C_T {c_t}"), 1e6 * c_p, 1e6 * at.c_p, Band::Part(0.03), 0);
+        case.row(format!("figure of merit at C_T {c_t}"), merit, ours, Band::Within(0.02), 3)
+            .fitted(&[Fit::InducedPower]);
+        case.row(format!("C_P·10⁶ at C_T {c_t}"), 1e6 * c_p, 1e6 * at.c_p, Band::Part(0.03), 0)
+            .fitted(&[Fit::InducedPower])
+            .twice("the figure of merit");
         stands.push(at);
     }
     if let [_, _, low, high, ..] = &stands[..] {
@@ -105,9 +111,10 @@ pub fn isolated_rotor(aircraft: &Aircraft, book: &mut Book) {
 pub fn hover(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         2,
+        Class::A,
         "hover, 13,000 lb, flaps 40/25, 589 rpm, out of ground effect",
-        "Class A: NASA CR-176970 Tables 1, 3 and 5 scaled to the weight (power, download). Class B: \
-         GTRS, NASA CR-166537 (pitch, stick, thrust).",
+        "NASA CR-176970 Tables 1, 3 and 5 scaled to the weight (power, download); GTRS, \
+         NASA CR-166537 (pitch, stick, thrust).",
         "The band of power holds the flight test (1465 to 1500 kW) and GTRS (1430 kW) with 10 kW either \
          way, download what the flight test spread over; pitch and stick what GTRS and flight differ \
          by. The power is that of the masts: accessories and gears come before it. Of it, 6 % is what \
@@ -121,14 +128,20 @@ pub fn hover(aircraft: &Aircraft, book: &mut Book) {
         of(&|t| 1e-3 * t.report.power_w),
         Band::Between(1420.0, 1510.0),
         0,
-    );
-    case.row("pitch, deg", 1.11, of(&|t| t.report.pitch_rad * DEG), Band::Between(0.0, 1.5), 2);
+    )
+    .fitted(&[Fit::Recirculation]);
+    const PRINTED: &str = "case 3, 0 kt printed";
+    case.row("pitch, deg", 1.11, of(&|t| t.report.pitch_rad * DEG), Band::Between(0.0, 1.5), 2)
+        .class(Class::B)
+        .twice(PRINTED);
     let stick = of(&|t| t.report.stick_from_aft_m / INCH_M);
-    case.row("stick, in", 5.27, stick, Band::Between(5.0, 5.5), 2);
+    case.row("stick, in", 5.27, stick, Band::Between(5.0, 5.5), 2).class(Class::B).twice(PRINTED);
     let download = of(&|t| 100.0 * t.report.download_n / t.report.thrust_n.sum());
     case.row("download, % of thrust", 11.0, download, Band::Between(10.0, 12.0), 1);
     let thrust = of(&|t| t.report.thrust_n.right / POUND_N);
-    case.row("thrust of a rotor, lbf", 7333.9, thrust, Band::Part(0.02), 0);
+    case.row("thrust of a rotor, lbf", 7333.9, thrust, Band::Part(0.02), 0)
+        .class(Class::B)
+        .twice(PRINTED);
     book.add(case);
 }
 
@@ -169,8 +182,9 @@ fn ceiling_ft(aircraft: &Aircraft, weight_lb: f64, in_ground_effect: bool) -> Re
 pub fn ceilings(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         6,
+        Class::A,
         "hover ceilings at take-off power, standard day",
-        "Class A: NASA TM-81244 fig. 12, fitted lines.",
+        "NASA TM-81244 fig. 12, fitted lines.",
         "±800 ft: 200 ft of reading, the rest for what the weight of fuel and the engines' state were. \
          In ground effect the wheels are taken to be 2 ft over the ground; the source does not say. At \
          13,000 lb and 8,000 ft a rotor flies at C_T .0133, where ours alone is 2.5 % better than the \

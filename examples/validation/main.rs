@@ -7,8 +7,11 @@
 mod airframe;
 mod book;
 mod dynamics;
+mod fits;
 mod flown;
 mod hover;
+mod identified;
+mod page;
 mod performance;
 mod pictures;
 mod trims;
@@ -38,8 +41,9 @@ fn generate() -> Vec<(String, String)> {
     dynamics::symmetry(&aircraft, &mut book);
     performance::autorotation(&aircraft, &mut book);
     airframe::components(&aircraft, &mut book);
+    identified::responses(&aircraft, &mut book);
     let mut files = pictures::all(&aircraft);
-    files.push(("VALIDATION.md".into(), book.text()));
+    files.push(("VALIDATION.md".into(), page::page(&book)));
     files
 }
 

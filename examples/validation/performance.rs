@@ -4,7 +4,8 @@ use analysis::trim::{GROUND_FAR_BELOW_M, Power, Target, Trim, trim};
 use engine::Aircraft;
 use engine::inputs::{Failures, World};
 
-use crate::book::{Band, Book, Case, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, RPM_RADPS};
+use crate::book::{Band, Book, Case, Class, DEG, FOOT_M, INCH_M, KNOT_MPS, POUND_KG, RPM_RADPS};
+use crate::fits::Fit;
 use crate::trims::{at, stick_in, why};
 
 fn fuel_lb_per_h(trim: &Trim) -> f64 {
@@ -16,12 +17,16 @@ fn fuel(aircraft: &Aircraft, nacelle_deg: f64, speed_kt: f64) -> Result<f64, Str
     at(aircraft, nacelle_deg, speed_kt * KNOT_MPS).map(|trim| fuel_lb_per_h(&trim))
 }
 
+/// The two points through which the engine's fuel flow was laid: nacelles in deg, speed in kt.
+const FUEL_FITTED: [(f64, f64); 2] = [(90.0, 0.0), (0.0, 141.0)];
+
 /// Case 5.
 pub fn bucket(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         5,
+        Class::A,
         "fuel flow in level flight",
-        "Class A: NASA TM-81244 fig. 13, weight and height not stated (13,000 lb at sea level taken).",
+        "NASA TM-81244 fig. 13, weight and height not stated (13,000 lb at sea level taken).",
         "The ratios ±7 %, as they need no engine data; single points ±10 %, as they do. Our engine's \
          fuel flow is fitted to hover and slow aeroplane. The fast end at 0 deg is not at sea level: with \
          258 kt there (case 7) go 1,892 hp, for which hover burns 1,280 lb/h. 30 deg at 88 kt is slower \
@@ -31,8 +36,11 @@ pub fn bucket(aircraft: &Aircraft, book: &mut Book) {
     let ratio = |nacelle_deg: f64, speed_kt: f64| -> Result<f64, String> {
         Ok(hover.clone()? / fuel(aircraft, nacelle_deg, speed_kt)?)
     };
-    case.row("hover over 60 kt helicopter", 1.45, ratio(90.0, 60.0), Band::Part(0.07), 2);
-    case.row("hover over 141 kt aeroplane", 1.65, ratio(0.0, 141.0), Band::Part(0.07), 2);
+    case.row("hover over 60 kt helicopter", 1.45, ratio(90.0, 60.0), Band::Part(0.07), 2)
+        .twice("0 and 60 kt below");
+    case.row("hover over 141 kt aeroplane", 1.65, ratio(0.0, 141.0), Band::Part(0.07), 2)
+        .fitted(&[Fit::FuelFlow])
+        .twice("hover and 141 kt below");
     for (nacelle_deg, speed_kt, published) in [
         (90.0, 0.0, 1323.0),
         (90.0, 27.0, 1179.0),
@@ -49,7 +57,11 @@ pub fn bucket(aircraft: &Aircraft, book: &mut Book) {
         (0.0, 256.0, 1148.0),
     ] {
         let name = format!("{nacelle_deg:.0} deg, {speed_kt:.0} kt, lb/h");
-        case.row(name, published, fuel(aircraft, nacelle_deg, speed_kt), Band::Part(0.1), 0);
+        let ours = fuel(aircraft, nacelle_deg, speed_kt);
+        let row = case.row(name, published, ours, Band::Part(0.1), 0);
+        if FUEL_FITTED.contains(&(nacelle_deg, speed_kt)) {
+            row.fitted(&[Fit::FuelFlow]);
+        }
     }
     for (speed_kt, published) in [(109.0, 818.0), (134.0, 847.0), (165.0, 932.0), (200.0, 1073.0)] {
         let name = format!("0 deg, 98 % rpm, {speed_kt:.0} kt, lb/h");
@@ -72,8 +84,9 @@ const TORQUE_N_M: f64 = 130_000.0 * INCH_M * crate::book::POUND_N;
 pub fn speed(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         7,
+        Class::A,
         "greatest level speed by torque, sea level, 458 rpm",
-        "Class A: where the torque limit begins, NASA TM-81244 figs. 11 and 15.",
+        "Where the torque limit begins, NASA TM-81244 figs. 11 and 15.",
         "±3 %: reading of the figure. 130,000 in-lb at each mast (TM X-62,407).",
     );
     let torque =
@@ -95,11 +108,13 @@ pub fn speed(aircraft: &Aircraft, book: &mut Book) {
 pub fn stall(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         8,
+        Class::A,
         "stall as an aeroplane, flaps up, 12,000 to 13,000 lb",
-        "Class A: NASA TM-81244.",
+        "NASA TM-81244.",
         "±5 kt around 95 to 100 kt. Ours is the slowest level flight with a trim, in steps of 1 kt. That \
          it does not roll off is asked of the left–right symmetry only: the wing has no asymmetric stall. \
-         At 13,000 lb; each 1,000 lb less is 4 kt.",
+         At 13,000 lb; each 1,000 lb less is 4 kt. The speed passes at the \
+         band's edge: 104 kt has no trim, and what was flown is 95 to 100 kt.",
     );
     let mut slowest: Option<(f64, Trim)> = None;
     for speed_kt in (70..=130).rev() {
@@ -134,8 +149,9 @@ const CONVERSION: [(f64, f64); 10] = [
 pub fn conversion(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         11,
+        Class::Own,
         "conversion from 80 to 170 kt, level",
-        "Class A, qualitative: the corridor and procedure of NASA TM-81244.",
+        "The corridor and procedure of NASA TM-81244, in words; most limits are our own.",
         "In steady points along a straight line through the corridor, flaps 20/12.5, 589 rpm; and flown \
          by the pilot model, from steady flight at 80 kt, 500 ft, wanting 170 kt and no climb. He lets go \
          of the switch where the corridor's side comes within 8 kt, and where the rotors are 5 % off their \
@@ -162,7 +178,7 @@ pub fn conversion(aircraft: &Aircraft, book: &mut Book) {
     let most = sticks_in.iter().fold(f64::NEG_INFINITY, |a, &b| engine::math::max(a, b));
     let least = sticks_in.iter().fold(f64::INFINITY, |a, &b| engine::math::min(a, b));
     let range = if sticks_in.is_empty() { Err(reasons.join(", ")) } else { Ok(most - least) };
-    case.row("stick travel along it, in (less than)", 3.0, range, Band::Between(0.0, 3.0), 2);
+    case.row("stick travel along it, in (less than)", 3.0, range, Band::AtMost(3.0), 2);
     crate::flown::conversion(aircraft, &mut case);
     book.add(case);
 }
@@ -171,8 +187,9 @@ pub fn conversion(aircraft: &Aircraft, book: &mut Book) {
 pub fn autorotation(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         13,
+        Class::A,
         "autorotation, nacelles 95 deg, flaps 20, 80 kt, 92 % rpm",
-        "Class A: NASA TM-81244, about 3,100 ft/min.",
+        "NASA TM-81244, about 3,100 ft/min.",
         "±15 %: \"about\". Both engines stopped, the governor set to 553 rpm.",
     );
     let aircraft =

@@ -3,7 +3,7 @@
 use analysis::trim::{Failure, Target, Trim, trim};
 use engine::Aircraft;
 
-use crate::book::{Band, Book, Case, DEG, INCH_M, KNOT_MPS, POUND_N};
+use crate::book::{Band, Book, Case, Class, DEG, INCH_M, KNOT_MPS, POUND_N};
 
 /// A steady flight of the plan: nacelles in deg, speed in m/s; flaps and rotor speed as the source's.
 pub fn at(aircraft: &Aircraft, nacelle_deg: f64, airspeed_mps: f64) -> Result<Trim, String> {
@@ -101,6 +101,13 @@ impl Point {
     pub fn is_at(&self, nacelle_deg: f64) -> bool {
         (self.nacelle_deg - nacelle_deg).abs() < 0.5
     }
+
+    /// Where the same flight of the same model is printed with its own digits, within 2 kt.
+    fn printed(&self) -> Option<&'static str> {
+        let is_near = |kt: f64| (self.airspeed_mps / KNOT_MPS - kt).abs() < 2.0;
+        let is_printed = self.source == "GTRS" && self.is_at(90.0);
+        (is_printed && (is_near(40.0) || is_near(80.0))).then_some("the printed one")
+    }
 }
 
 fn rows(aircraft: &Aircraft, case: &mut Case, point: &Point) {
@@ -110,24 +117,28 @@ fn rows(aircraft: &Aircraft, case: &mut Case, point: &Point) {
         "{:.0} deg, {:.0} kt, {}",
         point.nacelle_deg,
         point.airspeed_mps / KNOT_MPS,
-        if point.source == "flight" { "flight (A)" } else { "GTRS (B)" }
+        point.source
     );
+    let class = if point.source == "flight" { Class::A } else { Class::B };
     let pitch = of(&|t| t.report.pitch_rad * DEG);
-    case.row(format!("{name}: pitch, deg"), point.pitch_deg, pitch, Band::Within(1.5), 1);
+    let row = case.row(format!("{name}: pitch, deg"), point.pitch_deg, pitch, Band::Within(1.5), 1);
+    row.class(class).twice = point.printed();
     let stick = of(&stick_in);
-    case.row(format!("{name}: stick, in"), point.stick_in, stick, Band::Within(0.5), 2);
+    let row = case.row(format!("{name}: stick, in"), point.stick_in, stick, Band::Within(0.5), 2);
+    row.class(class).twice = point.printed();
     let power = of(&|t| 1e-3 * t.report.power_w);
-    case.row(format!("{name}: power, kW"), point.power_kw, power, Band::Part(0.08), 0);
+    case.row(format!("{name}: power, kW"), point.power_kw, power, Band::Part(0.08), 0).class(class);
 }
 
 /// Case 3.
 pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         3,
+        Class::B,
         "helicopter, 0 to 100 kt, level",
-        "Class B: GTRS, NASA CR-166537 printouts (first rows), and digitised from Wang et al. 2025 \
-         fig. 1, the digitiser's bias taken off (pitch +.3 deg, stick +.7 %). Class A: flight points of the \
-         same figure.",
+        "GTRS, NASA CR-166537 printouts (first rows), and digitised from Wang et al. 2025 fig. 1, the \
+         digitiser's bias taken off (pitch +.3 deg, stick +.7 %), with the flight points of the same \
+         figure.",
         "Against the printouts ±.3 deg and ±.15 in, which only a model with the same tables could hold; \
          against the figure ±1.5 deg, ±.5 in and ±8 %, which holds the reading (±.7 deg, ±1.4 %, \
          ±43 kW) twice. Flight and GTRS are 3.5 to 5 deg apart in pitch and 120 kW in power at 40 to \
@@ -145,7 +156,7 @@ pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
     for (speed_kt, pitch_deg, stick, thrust_lbf) in PRINTED {
         let found = at(aircraft, 90.0, speed_kt * KNOT_MPS);
         let of = |f: &dyn Fn(&Trim) -> f64| found.as_ref().map(f).map_err(Clone::clone);
-        let name = format!("{speed_kt:.0} kt, printed (B)");
+        let name = format!("{speed_kt:.0} kt, printed");
         let pitch = of(&|t| t.report.pitch_rad * DEG);
         case.row(format!("{name}: pitch, deg"), pitch_deg, pitch, Band::Within(0.3), 2);
         case.row(format!("{name}: stick, in"), stick, of(&stick_in), Band::Within(0.15), 2);
@@ -162,8 +173,9 @@ pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
 pub fn nacelles(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
         4,
+        Class::B,
         "nacelles at 60, 30 and 0 deg, level",
-        "Class B: GTRS; class A: flight; both digitised from Wang et al. 2025 fig. 1. At 60 and 0 deg with \
+        "GTRS and flight, both digitised from Wang et al. 2025 fig. 1. At 60 and 0 deg with \
          the digitiser's known bias taken off (pitch +1.5 deg, power +45 kW).",
         "±1.5 deg, ±.5 in, ±8 %: twice the reading. Flaps 20/12.5, as an aeroplane 0 and 458 rpm. The power \
          at 0 deg is not what flight takes at 458 rpm: GTRS' own growth makes 1,208 kW at 220 kt some 1,600 \

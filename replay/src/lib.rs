@@ -6,6 +6,7 @@ mod diagnosis;
 mod diff;
 mod divergence;
 pub mod growth;
+pub mod identify;
 pub mod judgement;
 mod made;
 mod outputs;

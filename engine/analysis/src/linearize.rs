@@ -134,12 +134,7 @@ impl<'a> About<'a> {
     }
 
     fn pack(&self, state: &State) -> Vec<f64> {
-        let plant = &state.plant;
-        let along = plant.attitude.ned_from_body().inverse() * plant.velocity_mps;
-        let (rate, euler) = (plant.angular_rate_radps, plant.attitude.euler());
-        let rigid =
-            [along.x, along.y, along.z, rate.x, rate.y, rate.z, euler.roll_rad, euler.pitch_rad];
-        rigid.into_iter().chain(self.inner.iter().map(|inner| inner.get(state))).collect()
+        rigid(state).into_iter().chain(self.inner.iter().map(|inner| inner.get(state))).collect()
     }
 
     fn unpack(&self, x: &[f64], u: &[f64; INPUTS.len()]) -> State {
@@ -176,15 +171,39 @@ impl<'a> About<'a> {
             .chain([turn.roll_radps, turn.pitch_radps])
             .chain(self.inner.iter().map(|inner| (inner.get(&next) - inner.get(&state)) / STEP_S))
             .collect();
-        (rates, observed(x, &outputs))
+        (rates, observed(&x[..Rigid::ALL.len()], &outputs))
     }
 }
 
-fn observed(x: &[f64], outputs: &Outputs) -> [f64; OUTPUTS.len()] {
+/// The rigid body's states.
+fn rigid(state: &State) -> [f64; Rigid::ALL.len()] {
+    let plant = &state.plant;
+    let along = plant.attitude.ned_from_body().inverse() * plant.velocity_mps;
+    let (rate, euler) = (plant.angular_rate_radps, plant.attitude.euler());
+    [along.x, along.y, along.z, rate.x, rate.y, rate.z, euler.roll_rad, euler.pitch_rad]
+}
+
+/// The [`INPUTS`] of a flown state, with their trim.
+pub fn inputs_of(aircraft: &Aircraft, state: &State) -> [f64; INPUTS.len()] {
+    let (travel, pilot) = (&aircraft.fcc.travel, &state.cockpit);
+    [
+        pilot.stick_aft_norm * travel.longitudinal_stick_m,
+        pilot.stick_right_norm * travel.lateral_stick_m,
+        pilot.pedal_right_norm * travel.pedal_m,
+        pilot.collective_norm * travel.collective_m,
+    ]
+}
+
+/// The [`OUTPUTS`] of a flown state, with their trim.
+pub fn outputs_of(state: &State, outputs: &Outputs) -> [f64; OUTPUTS.len()] {
+    observed(&rigid(state), outputs)
+}
+
+fn observed(rigid: &[f64], outputs: &Outputs) -> [f64; OUTPUTS.len()] {
     let force = outputs.specific_force_mps2;
     let power_w = outputs.rotors.map(|rotor| rotor.power_w).sum();
     let mut y = [0.0; OUTPUTS.len()];
-    y[..Rigid::ALL.len()].copy_from_slice(&x[..Rigid::ALL.len()]);
+    y[..Rigid::ALL.len()].copy_from_slice(rigid);
     y[Rigid::ALL.len()..].copy_from_slice(&[
         force.x,
         force.y,

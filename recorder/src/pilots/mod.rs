@@ -7,6 +7,7 @@
 mod device;
 mod phase;
 mod skill;
+mod sweep;
 
 use engine::cockpit::{self, AxisControl};
 use engine::envelope::Corridor;
@@ -16,12 +17,13 @@ use engine::{Outputs, STEP_S};
 
 pub use device::{DEVICE, VirtualDevice};
 use phase::{Order, Phase};
-use skill::{Eyes, HAND_TICKS, Skill};
+use skill::{Eyes, HAND_TICKS, Positions, Skill};
+use sweep::{Axis, Steady};
 
 use crate::hands::{GaveUp, Hands, Reach};
 
 /// Names of the pilot models, each with what it flies.
-pub const PILOTS: [(&str, &str); 7] = [
+pub const PILOTS: [(&str, &str); 11] = [
     ("hover", "lifts off, hovers at 10 m and keeps hovering"),
     ("demo", "vertical take-off, conversion, left turn, reconversion, landing where it began"),
     ("takeoff", "lifts off, accelerates as a helicopter to 80 kt and flies on"),
@@ -29,11 +31,15 @@ pub const PILOTS: [(&str, &str); 7] = [
     ("turn", "the same, then turns left on and on"),
     ("reconvert", "begins as an aeroplane (or becomes one), reconverts, hovers"),
     ("land", "comes to a hover from whatever it begins in, and lands"),
+    ("sweep-pitch", "sweeps the stick to and fro, three times from .2 to 15 rad/s, for `identify`"),
+    ("sweep-roll", "the same from side to side"),
+    ("sweep-yaw", "the same with the pedals"),
+    ("sweep-lever", "the same with the power lever"),
 ];
 
 /// Whether the pilot model of that name ends its flight by itself.
 pub fn lands(name: &str) -> bool {
-    matches!(name, "demo" | "land")
+    matches!(name, "demo" | "land") || Axis::of(name).is_some()
 }
 
 /// Higher than this it has flown, m.
@@ -87,7 +93,17 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
                 ("landing", Phase::Land),
             ]);
         }
-        _ => return None,
+        _ => {
+            let axis = Axis::of(name)?;
+            if on_wheels {
+                plan.truncate(2);
+                plan.push(("hover", Phase::Hold { seconds: 20.0 }));
+            }
+            plan.push(("steady flight", Phase::Steady { seconds: 5.0 }));
+            for sweep in ["first sweep", "second sweep", "third sweep"] {
+                plan.push((sweep, Phase::Sweep { axis }));
+            }
+        }
     }
     Some(plan)
 }
@@ -116,6 +132,8 @@ pub struct Pilot {
     thumb: i8,
     /// When the other hand last moved a handle.
     handle_tick: u64,
+    /// The flight about which it sweeps.
+    steady: Option<Steady>,
 }
 
 impl Pilot {
@@ -138,6 +156,7 @@ impl Pilot {
             failed: None,
             thumb: 0,
             handle_tick: 0,
+            steady: None,
         })
     }
 
@@ -171,6 +190,16 @@ impl Pilot {
         self.failed.get_or_insert(GaveUp { number, phase, why });
     }
 
+    /// Keeps the flight in which the sweeps began, and sweeps; no other hand moves.
+    fn sweep(&mut self, phase: Phase, seen: &Outputs, since_s: f64) -> Positions {
+        let steady = *self.steady.get_or_insert_with(|| Steady::of(seen));
+        let sweep = match phase {
+            Phase::Sweep { axis } => Some((axis, since_s)),
+            _ => None,
+        };
+        steady.positions(seen, sweep)
+    }
+
     fn begin(&mut self, seen: &Outputs) {
         self.started = true;
         let on_wheels = Eyes::look(seen).on_wheels_norm > 0.5;
@@ -200,12 +229,17 @@ impl Hands for Pilot {
         *reach.phase = (self.at as u64 + 1, name);
         let since_s = (reach.tick - self.since_tick) as f64 * STEP_S;
         let over = self.give_orders(phase, seen, since_s, reach);
-        let to = self.positions(phase, seen, reach.tick);
+        let to = match phase {
+            Phase::Steady { .. } | Phase::Sweep { .. } => self.sweep(phase, seen, since_s),
+            _ => self.positions(phase, seen, reach.tick),
+        };
         self.device.set(reach, AxisControl::StickAft, to.stick_aft_norm);
         self.device.set(reach, AxisControl::StickRight, to.stick_right_norm);
         self.device.set(reach, AxisControl::PedalRight, to.pedal_right_norm);
         self.device.set(reach, AxisControl::Collective, to.lever_norm);
-        self.switches(seen, reach);
+        if self.steady.is_none() {
+            self.switches(seen, reach);
+        }
         if over {
             self.at += 1;
             self.since_tick = reach.tick;

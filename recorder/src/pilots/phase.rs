@@ -7,6 +7,7 @@ use engine::units::KNOT_MPS;
 use engine::{Outputs, STEP_S};
 
 use super::skill::{Aim, Eyes, HAND_S, Positions};
+use super::sweep::{self, Axis};
 use super::{Pilot, bearing};
 use crate::hands::Reach;
 
@@ -39,6 +40,10 @@ pub enum Phase {
     FaceStart,
     /// Descends onto the wheels and lowers the lever.
     Land,
+    /// Keeps the flight that it finds, the hands at the controls' positions.
+    Steady { seconds: f64 },
+    /// Sweeps a control about that flight.
+    Sweep { axis: Axis },
 }
 
 impl Phase {
@@ -46,7 +51,11 @@ impl Phase {
     /// is never given up for its length.
     pub fn patience_s(self) -> f64 {
         match self {
-            Self::Wait { .. } | Self::Hold { .. } | Self::Circle { .. } => f64::INFINITY,
+            Self::Wait { .. }
+            | Self::Hold { .. }
+            | Self::Circle { .. }
+            | Self::Steady { .. }
+            | Self::Sweep { .. } => f64::INFINITY,
             Self::Stop { .. } | Self::Approach { .. } => 300.0,
             _ => 120.0,
         }
@@ -147,7 +156,10 @@ impl Pilot {
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
         let height_m = seen.height_above_ground_m;
         match phase {
-            Phase::Wait { seconds } | Phase::Hold { seconds } => since_s >= seconds,
+            Phase::Wait { seconds } | Phase::Hold { seconds } | Phase::Steady { seconds } => {
+                since_s >= seconds
+            }
+            Phase::Sweep { .. } => since_s >= sweep::length_s(),
             Phase::Rise { height_m: to_m, climb_mps } => {
                 order.climb_mps_max = climb_mps;
                 order.height_m = to_m;

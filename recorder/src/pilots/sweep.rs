@@ -1,0 +1,192 @@
+//! Frequency sweeps, flown as flight test does it: one control goes to and fro, slowly at first and
+//! ever faster, about a steady flight that the other hand hardly touches.
+//!
+//! # Equations
+//! ```text
+//! δ = δ₀ + A·fade(t)·sin φ(t) + hold         φ̇ = ω₀ for one period, then ω₀·e^{gt} up to ω₁
+//! hold: aft     k_θ·(θ₀ + k_u·(u − u₀) − θ) − k_q·q       right  k_φ·(φ₀ − k_v·(v − v₀) − φ) − k_p·p
+//!       pedal   k_ψ·(ψ₀ − ψ) − k_r·r                      lever  k_h·(h₀ − h) − k_ḣ·ḣ
+//! ```
+//! # Signs
+//! Stick aft, stick right, right pedal and lever up positive; climb up.
+//! # Assumptions
+//! The hold keeps an aircraft that drifts, or whose hover is unstable, where the sweep began. On the swept
+//! control it is a part of the input that is recorded, and takes nothing from the response; on the others
+//! it is slow and small, and what is identified is with it. As an aeroplane only attitude is held.
+
+use engine::Outputs;
+use engine::math::{PI, clamp, cos, exp, ln, min, ramp, sin, wrap_angle};
+
+use super::skill::{Eyes, Positions};
+
+/// Lowest and highest frequency, rad/s.
+const BAND_RADPS: [f64; 2] = [0.2, 15.0];
+/// From the lowest to the highest, s.
+const RISE_S: f64 = 80.0;
+/// Coming to rest after it, s.
+const REST_S: f64 = 9.0;
+/// Growing and dying away, s.
+const FADE_S: f64 = 3.0;
+/// Amplitude with some speed, before it becomes lighter with dynamic pressure: .3 in of stick, .2 in of
+/// pedal, and .3 in of lever, as parts of the travel.
+const STICK_NORM: f64 = 0.062;
+const PEDAL_NORM: f64 = 0.08;
+const LEVER_NORM: f64 = 0.03;
+/// Part of it over a spot from 1 rad/s on, and less in proportion below: slow movements sway a hover far,
+/// .3 in of stick at .3 rad/s by 9 kt and 16 deg, and its derivatives are others at 2 kt already.
+const OVER_A_SPOT: f64 = 0.25;
+/// Dynamic pressure at which half of everything does, Pa.
+const LIGHT_PA: f64 = 1500.0;
+/// Attitude that the hold asks for because of a speed, rad.
+const LEAN_RAD_MAX: f64 = 0.1;
+
+/// The control that is swept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Stick aft.
+    Pitch,
+    /// Stick right.
+    Roll,
+    /// Right pedal.
+    Yaw,
+    /// Power lever.
+    Lever,
+}
+
+impl Axis {
+    /// Of a pilot model's name.
+    pub fn of(pilot: &str) -> Option<Self> {
+        match pilot {
+            "sweep-pitch" => Some(Self::Pitch),
+            "sweep-roll" => Some(Self::Roll),
+            "sweep-yaw" => Some(Self::Yaw),
+            "sweep-lever" => Some(Self::Lever),
+            _ => None,
+        }
+    }
+}
+
+/// One sweep, its rest included, s.
+pub fn length_s() -> f64 {
+    first_period_s() + RISE_S + REST_S
+}
+
+fn first_period_s() -> f64 {
+    2.0 * PI / BAND_RADPS[0]
+}
+
+/// How fast it is by then, rad/s.
+fn frequency_radps(time_s: f64) -> f64 {
+    let [low, high] = BAND_RADPS;
+    low * exp(ln(high / low) * ramp(time_s - first_period_s(), 0.0, RISE_S))
+}
+
+/// Between −1 and 1, by the time since the sweep began.
+fn wave(time_s: f64) -> f64 {
+    let [low, high] = BAND_RADPS;
+    let end_s = first_period_s() + RISE_S;
+    if time_s >= end_s {
+        return 0.0;
+    }
+    let since_s = time_s - first_period_s();
+    let growth = ln(high / low) / RISE_S;
+    let phase_rad =
+        if since_s < 0.0 { low * time_s } else { low / growth * (exp(growth * since_s) - 1.0) };
+    min(ramp(time_s, 0.0, FADE_S), ramp(end_s - time_s, 0.0, FADE_S)) * sin(phase_rad)
+}
+
+/// The steady flight about which is swept.
+#[derive(Clone, Copy, Debug)]
+pub struct Steady {
+    hands: Positions,
+    pitch_rad: f64,
+    roll_rad: f64,
+    heading_rad: f64,
+    forward_mps: f64,
+    right_mps: f64,
+    height_m: f64,
+}
+
+impl Steady {
+    /// As it is.
+    pub fn of(seen: &Outputs) -> Self {
+        let eyes = Eyes::look(seen);
+        Self {
+            hands: Positions {
+                stick_aft_norm: seen.cockpit.stick_aft_norm,
+                stick_right_norm: seen.cockpit.stick_right_norm,
+                pedal_right_norm: seen.cockpit.pedal_right_norm,
+                lever_norm: seen.cockpit.collective_norm,
+            },
+            pitch_rad: seen.euler.pitch_rad,
+            roll_rad: seen.euler.roll_rad,
+            heading_rad: seen.euler.heading_rad,
+            forward_mps: eyes.forward_mps,
+            right_mps: eyes.right_mps,
+            height_m: -seen.position_m.z,
+        }
+    }
+
+    /// Where the hands go to keep it, with so much of a sweep.
+    pub fn positions(&self, seen: &Outputs, sweep: Option<(Axis, f64)>) -> Positions {
+        let eyes = Eyes::look(seen);
+        let slow = 1.0 - ramp(seen.airspeed_mps, 15.0, 26.0);
+        let upright = cos(seen.actuators.mast_tilt_rad.mean());
+        let q_pa = 0.5 * seen.air.density_kg_per_m3 * seen.airspeed_mps * seen.airspeed_mps;
+        let light = 1.0 / (1.0 + q_pa / LIGHT_PA);
+        let (euler, rate) = (seen.euler, seen.angular_rate_radps);
+
+        let lean = |by_rad: f64| clamp(by_rad, -LEAN_RAD_MAX, LEAN_RAD_MAX);
+        let nose_rad = lean(0.02 * slow * (eyes.forward_mps - self.forward_mps));
+        let heading_off_rad = wrap_angle(self.heading_rad - euler.heading_rad);
+        let bank_rad = lean(
+            0.5 * (1.0 - slow) * heading_off_rad - 0.02 * slow * (eyes.right_mps - self.right_mps),
+        );
+        let mut to = Positions {
+            stick_aft_norm: self.hands.stick_aft_norm
+                + light
+                    * ((0.4 + 0.8 * slow) * (self.pitch_rad + nose_rad - euler.pitch_rad)
+                        - (0.3 + 0.7 * slow) * rate.y),
+            stick_right_norm: self.hands.stick_right_norm
+                + light
+                    * ((0.35 + 0.65 * slow) * (self.roll_rad + bank_rad - euler.roll_rad)
+                        - (0.2 + 0.6 * slow) * rate.x),
+            pedal_right_norm: self.hands.pedal_right_norm
+                + slow * (0.9 * heading_off_rad - 1.5 * rate.z),
+            lever_norm: self.hands.lever_norm
+                + upright * (0.015 * (self.height_m + seen.position_m.z) - 0.02 * eyes.climb_mps),
+        };
+        if let Some((axis, time_s)) = sweep {
+            let part = OVER_A_SPOT * min(1.0, frequency_radps(time_s));
+            let wave = wave(time_s) * (1.0 - (1.0 - part) * slow);
+            match axis {
+                Axis::Pitch => to.stick_aft_norm += STICK_NORM * light * wave,
+                Axis::Roll => to.stick_right_norm += STICK_NORM * light * wave,
+                Axis::Yaw => to.pedal_right_norm += PEDAL_NORM * light * wave,
+                Axis::Lever => to.lever_norm += LEVER_NORM * wave,
+            }
+        }
+        to
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sweep_begins_and_ends_at_rest_and_passes_through_every_frequency() {
+        assert!(wave(0.0).abs() < 1e-12 && wave(length_s() - REST_S).abs() < 1e-12);
+        // Sign changes from the middle of the rise on, against the frequency that the rise has there.
+        let step_s = 0.001;
+        let crossings = |from_s: f64, to_s: f64| {
+            let steps = ((to_s - from_s) / step_s) as u32;
+            let at = |i: u32| wave(from_s + f64::from(i) * step_s);
+            (1..steps).filter(|&i| at(i - 1) * at(i) < 0.0).count() as f64
+        };
+        let end_s = first_period_s() + RISE_S;
+        let last = crossings(end_s - 10.0, end_s - FADE_S) * PI / (10.0 - FADE_S);
+        assert!(last > 9.0 && last < 15.0, "{last} rad/s");
+        assert!(crossings(0.5, first_period_s() - 0.5) <= 1.0, "one period of the lowest");
+    }
+}
