@@ -85,12 +85,14 @@ pub struct Inputs {
 }
 
 impl Params {
+    /// θ_0 − Δ: what the linkage allows. The pilot's wheel goes there, beyond what the governor does itself.
+    pub fn limit_rad(&self, mast_tilt_rad: f64) -> f64 {
+        self.lever_bottom_rad.at(mast_tilt_rad) - self.collective_datum_rad
+    }
+
     /// θ_min.
     pub fn lowest_rad(&self, mast_tilt_rad: f64) -> f64 {
-        max(
-            self.lever_bottom_rad.at(mast_tilt_rad) - self.collective_datum_rad,
-            self.least_torque_rad,
-        )
+        max(self.limit_rad(mast_tilt_rad), self.least_torque_rad)
     }
 
     /// θ_ff.
