@@ -102,11 +102,10 @@ impl Params {
             Region {
                 lift: cells(&|j| lift.z[i][j]),
                 drag: cells(&drag_at),
-                from_rad: lift.y[0],
-                to_rad: lift.y[last],
                 per_step: 1.0 / step,
                 cell_max: last as f64 - 1.0,
                 zero_lift_rad,
+                zero_lift_steps: root(&lift.z[i]),
                 lift_slope_per_rad: slope(&lift.z[i]) / step,
                 to_stall_rad: lift.y[greatest(&lift.z[i])] - zero_lift_rad,
                 table_mach: mach,
@@ -157,12 +156,12 @@ pub struct Region {
     lift: Cells,
     /// cd, alike.
     drag: Cells,
-    from_rad: f64,
-    to_rad: f64,
     per_step: f64,
     cell_max: f64,
     /// α0.
     pub zero_lift_rad: f64,
+    /// The same in steps from where the table begins.
+    zero_lift_steps: f64,
     /// a.
     lift_slope_per_rad: f64,
     /// αs − α0, to the greatest lift.
@@ -219,9 +218,9 @@ impl Region {
         let slope = self.table_beta / lanes::sqrt(1.0 - min(square(mach), MACH2_MAX));
         let lifting = (alpha - self.zero_lift_rad) * slope;
         let delayed = delay * clamp(lifting, 0.0, self.to_stall_rad);
-        let angle = self.zero_lift_rad + lifting;
-        let table_lift = self.table(&self.lift, angle - delayed);
-        let table_drag = max(self.table(&self.drag, angle), 0.0);
+        let steps = lifting * self.per_step + self.zero_lift_steps;
+        let table_lift = self.table(&self.lift, steps - delayed * self.per_step);
+        let table_drag = max(self.table(&self.drag, steps), 0.0);
         let above = s.above(0.0);
         let past = (s - STALL) * (1.0 / (PLATE - STALL));
         let below = (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW));
@@ -250,10 +249,10 @@ impl Region {
         found
     }
 
-    /// A value: linear between the points and below them, held above.
+    /// A value so many steps into its table: linear between the points and below them, held above.
     #[inline(always)]
-    fn table(&self, cells: &Cells, alpha_rad: Lanes) -> Lanes {
-        let steps = (min(alpha_rad, self.to_rad) - self.from_rad) * self.per_step;
+    fn table(&self, cells: &Cells, steps: Lanes) -> Lanes {
+        let steps = min(steps, self.cell_max + 1.0);
         let (cell, index) = whole(clamp(steps, 0.0, self.cell_max));
         let cells = index.map(|index| cells[index as usize % ANGLES_MAX]);
         let [from, more] = core::array::from_fn(|part| Lanes::from_fn(|lane| cells[lane][part]));
