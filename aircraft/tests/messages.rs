@@ -253,7 +253,7 @@ fn a_table_that_does_not_ascend() {
 
 #[test]
 fn a_table_with_a_value_missing_is_found_by_its_engine_name() {
-    let table = "fcc.governor.collective_deg_min";
+    let table = "fcc.governor.lever_bottom_deg";
     let (text, line) = with_line(table, "value", "value = [1.0, 2.0]");
     told(
         &text,

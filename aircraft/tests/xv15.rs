@@ -112,7 +112,12 @@ const DOWNLOAD_AT_40: std::ops::Range<f64> = 0.10..0.12;
 /// Flap 20 droops its flaperon to 12.5° only, where the flight had 20° all along the span.
 const DOWNLOAD_AT_20: std::ops::Range<f64> = 0.115..0.132;
 
-/// Flaps up misses, by 5 % of thrust: the source's drag coefficient there is .96, the tunnel's 1.69.
+/// Flaps up, the same wing in both: the spread of the report's own ways to it.
+const DOWNLOAD_AT_0: std::ops::Range<f64> = 0.127..0.137;
+/// Flap 75 droops its flaperon to 47°, 57° in the mean: flown are 9.4 % at 50 and 8.5 % at 60°, with the
+/// same spread.
+const DOWNLOAD_AT_75: std::ops::Range<f64> = 0.080..0.099;
+
 #[test]
 fn val_download_in_hover_is_that_of_the_flight_test() {
     let xv15 = xv15();
@@ -120,8 +125,9 @@ fn val_download_in_hover_is_that_of_the_flight_test() {
     println!("download {downloads:.4?}, flown {DOWNLOAD_FLOWN:?}");
     assert!(DOWNLOAD_AT_40.contains(&downloads[2]));
     assert!(DOWNLOAD_AT_20.contains(&downloads[1]));
-    assert!(downloads[1..].is_sorted_by(|more, less| more > less));
-    assert!(downloads[0] < 0.09, "flaps up no longer misses");
+    assert!(DOWNLOAD_AT_0.contains(&downloads[0]));
+    assert!(DOWNLOAD_AT_75.contains(&downloads[3]));
+    assert!(downloads.is_sorted_by(|more, less| more > less));
 }
 
 /// GTRS needs 1430 kW (CR537), the flight test scaled to this weight 1465 to 1500 (CR176970).

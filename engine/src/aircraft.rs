@@ -116,7 +116,7 @@ impl Params {
             ("rotors.inflow.download_near_ground", self.rotors.inflow.download_near_ground.fault()),
             ("fcc.governor.proportional", self.fcc.governor.proportional_rad_per_radps.fault()),
             ("fcc.governor.integral", self.fcc.governor.integral_rad_per_rad.fault()),
-            ("fcc.governor.collective_min", self.fcc.governor.collective_rad_min.fault()),
+            ("fcc.governor.lever_bottom", self.fcc.governor.lever_bottom_rad.fault()),
             ("actuators.nacelle", self.actuators.nacelle_radps.fault()),
             ("engines.power_by_lever", self.engines.power_by_lever_norm.fault()),
         ];

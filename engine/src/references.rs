@@ -35,8 +35,11 @@
 //!   TP-2005-213477, 2005. Where the vortex ring begins to be felt (Vc/vh = -0.2) and where it takes the
 //!   damping of heave away (-0.45); recalled.
 //! - **CORRIGAN**: Corrigan and Schillings, *Empirical Model for Stall Delay due to Rotation*, AHS
-//!   Aeromechanics Specialists Conference, 1994. Rotational stall delay; its constants as Koning, NASA
-//!   CR-2016-219086, has them for this rotor, through a transcription by others.
+//!   Aeromechanics Specialists Conference, 1994. Rotational stall delay of lift; its constants, and that it
+//!   leaves drag alone, as CR219086 has them for this rotor.
+//! - **CR219086**: Koning, *XV-15 Tiltrotor Aerodynamics*, NASA CR-2016-219086, 2016, through a transcription by
+//!   others. Blade sections and where they stand; thrust and power of the isolated rotor by a momentum-source
+//!   solver with section tables of its own.
 //! - **JOHNSON**: Johnson, *Helicopter Theory*, 1980. Gimbal and coning in multiblade coordinates.
 //! - **KORN**: Korn's rule with Lock's fourth power, as in Mason, *Configuration Aerodynamics*. Drag
 //!   divergence of a section; recalled.

@@ -18,7 +18,7 @@ use crate::controls::Commands;
 use crate::frames::Euler;
 use crate::inputs::World;
 use crate::landing_gear::RigidMotion;
-use crate::math::{PI, TAU, max, square};
+use crate::math::{PI, TAU, clamp, max, square};
 use crate::state::{Plant, PlantRate, State};
 use crate::{
     Aircraft, Inputs, Outputs, STEP_S, actuators, cockpit, engines, environment, fcc, landing_gear,
@@ -187,7 +187,12 @@ fn advance(plant: &Plant, blocks: &Blocks, rate_before: &PlantRate) -> Plant {
         rotor_speed_radps,
         rotor_azimuth_rad: if turned_rad >= TAU { turned_rad - TAU } else { turned_rad },
         engines,
-        fuel_kg: max(0.0, plant.fuel_kg + ab2(drive.fuel_kg_per_s, drive_before.fuel_kg_per_s)),
+        // When the flow ends, half of the tick before would come back.
+        fuel_kg: clamp(
+            plant.fuel_kg + ab2(drive.fuel_kg_per_s, drive_before.fuel_kg_per_s),
+            0.0,
+            plant.fuel_kg,
+        ),
         tyre_deflections: gear.tyre_deflections,
         weight_on_wheels: u64::from(gear.legs.main.map(|leg| leg.push_n).sum() > 0.0),
     }

@@ -56,8 +56,8 @@ impl Fit {
     pub const fn story(self) -> &'static str {
         match self {
             Self::InducedPower => {
-                "`rotors.inflow.induced_power_factor`, 1.06: figure of merit of the isolated rotor in \
-                 the OARF test"
+                "`rotors.inflow.induced_power_factor`, 1.05: power of the isolated rotor in the OARF test at \
+                 C_T .004 to .0131, by least squares"
             }
             Self::Recirculation => {
                 "`rotors.inflow.recirculation`, .07: the 6 % of hover's power by which the figure of \

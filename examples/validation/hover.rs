@@ -80,7 +80,10 @@ pub fn isolated_rotor(aircraft: &Aircraft, book: &mut Book) {
         "OARF run 15, original blades, NASA CR-2017-219486 Table A-2.",
         "Figure of merit ±.02 is half of what the two test facilities disagree by; power ±3 % is that \
          of the balance. Collective has another zero in every source: only its slope is compared. The \
-         stand has neither wing nor neighbour: what those cost in hover is left out here.",
+         stand has neither wing nor neighbour: what those cost in hover is left out here. The induced factor \
+         is fitted between C_T .004 and .0131, the plan's range. At .0151 the inner half of the blade stands at 15 to \
+         21 deg, beyond the published section tables, which end at 8 deg (drag) and 12 deg (lift): on the \
+         flat plate that follows them it drags too much. The full section tables would settle it.",
     );
     let tip_mps = 768.0 * FOOT_M;
     let mut stands = Vec::new();
@@ -187,8 +190,8 @@ pub fn ceilings(aircraft: &Aircraft, book: &mut Book) {
         "NASA TM-81244 fig. 12, fitted lines.",
         "±800 ft: 200 ft of reading, the rest for what the weight of fuel and the engines' state were. \
          In ground effect the wheels are taken to be 2 ft over the ground; the source does not say. At \
-         13,000 lb and 8,000 ft a rotor flies at C_T .0133, where ours alone is 2.5 % better than the \
-         test (case 1, within its band): two thirds of the miss out of ground effect.",
+         13,000 lb and 8,000 ft a rotor flies at C_T .0133, where ours alone has .7 % less power than the \
+         test (case 1).",
     );
     for (weight_lb, out_ft, in_ft) in [(13_000.0, 7600.0, 11_200.0), (10_000.0, 16_500.0, 18_700.0)]
     {

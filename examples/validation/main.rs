@@ -7,13 +7,17 @@
 mod airframe;
 mod book;
 mod dynamics;
+mod envelope;
 mod fits;
+mod flaps;
 mod flown;
 mod hover;
 mod identified;
 mod page;
 mod performance;
 mod pictures;
+mod power_off;
+mod rotor_stand;
 mod trims;
 
 use std::fs;
@@ -41,6 +45,11 @@ fn generate() -> Vec<(String, String)> {
     dynamics::symmetry(&aircraft, &mut book);
     performance::autorotation(&aircraft, &mut book);
     airframe::components(&aircraft, &mut book);
+    power_off::descents(&aircraft, &mut book);
+    flaps::by_flap(&aircraft, &mut book);
+    rotor_stand::in_wind(&aircraft, &mut book);
+    envelope::aeroplane(&aircraft, &mut book);
+    envelope::ceilings(&aircraft, &mut book);
     identified::responses(&aircraft, &mut book);
     let mut files = pictures::all(&aircraft);
     files.push(("VALIDATION.md".into(), page::page(&book)));

@@ -181,9 +181,8 @@ pub fn nacelles(aircraft: &Aircraft, book: &mut Book) {
          at 0 deg is not what flight takes at 458 rpm: GTRS' own growth makes 1,208 kW at 220 kt some 1,600 \
          at 258 kt, where the masts took 1,411 kW (case 7). The figure does not say its rotor speed; 458 rpm \
          was inferred from a blade angle that stands 0 deg from ours there, and 3.3 to 4.7 at every other \
-         nacelle angle. At 517 rpm, as first flown, it stands 3.0 to 3.5 from ours, which then takes 542, 735 \
-         and 1,037 kW, and 766 at 184 kt, 9 % less than flight; at 589 rpm 579, 791, 1,130 and 820 kW, 7 and \
-         3 % less. Thrust is not at fault (10.4 ft² of drag at 220 kt; 10 were estimated from CR-166536's \
+         nacelle angle. At 517 rpm, as first flown, it stands 3.2 to 3.7 from ours, and the powers \
+         are those of case 19; at 589 rpm ours takes 577, 784, 1,117 and 813 kW. Thrust is not at fault (10.4 ft² of drag at 220 kt; 10 were estimated from CR-166536's \
          tables). The efficiency is .78 to .83 at 458 rpm, .68 at 589. As an aeroplane flight and \
          GTRS are 1.4 deg apart in pitch between 180 and 184 kt. The drag area is 12.7 ft² at 180 kt and 10.1 \
          at 240 kt, and GTRS's published parts, 9.1 without lift and 3.8 and 1.3 for the wing's (aspect \

@@ -74,6 +74,8 @@ pub struct Station {
     pub chord_m: f64,
     /// K − 1: how far rotation holds off the stall.
     pub delay: f64,
+    /// M_cr without lift: where the drag begins to rise.
+    pub rise_mach: f64,
     /// Where its region begins, of the radius.
     pub inner_norm: f64,
     /// How wide that is.
@@ -154,6 +156,7 @@ pub fn blade(params: &Params, radius_m: f64, delta3_rad: f64) -> Blade {
             area_m2: chord_m * weight_norm * radius_m,
             chord_m,
             delay: params.section.delay(chord_m / (x * radius_m)),
+            rise_mach: params.section.rise_mach(x),
             inner_norm: inner,
             width_norm: width,
             disc_norm: 2.0 * x * weight_norm,

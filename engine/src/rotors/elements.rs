@@ -174,6 +174,7 @@ fn azimuths(
             (sin_alpha, cos_alpha),
             u * per_sound,
             station.delay * min(turn * turn, 1.0),
+            station.rise_mach,
         );
         let lift = induced.lifting[i] * section.lift;
         let scale = station.area_m2 * u;

@@ -4,7 +4,7 @@
 //! ```text
 //! cl, cd = tables(α'),   α' = α0 + (α − α0)·√(1 − M_t²)/√(1 − M²)     −6° < α < 12°     [TP04]
 //! cl = 2·sin α·cos α,  cd = 0.01 + 1.9·sin²α                          flat plate
-//! cl(α) = cl(α' − Δ) + a·Δ,  cd(α) = cd(α' − Δ)       rotation holds off the stall  [CORRIGAN]
+//! cl(α) = cl(α' − Δ) + a·Δ                            rotation holds off the stall  [CORRIGAN]
 //! Δ = (K − 1)·(Ωr/U)²·(α' − α0), at most at αs,  K = (1.291·(c/r)^.0775)^n
 //! cd += d(M) − d(M_t),  d = 20·(M − M_cr)⁴ above M_cr,  M_cr = κ_A − t/c − cl/10 − .108   [KORN]
 //! ```
@@ -15,8 +15,9 @@
 //! # Assumptions
 //! The tables hold at one Mach number M_t a region: Prandtl–Glauert carries their slope, not their
 //! greatest lift, to others. No unsteady stall, no Reynolds number. The drag goes on in a straight line
-//! where its table ends and that of the lift does not (8° to 12°). Flow that rotation keeps attached
-//! has the drag of attached flow, which the source of the delay does not say.
+//! where its table ends and that of the lift does not (8° to 12°). The delay is one of lift alone, as its
+//! source has it: the drag is that of the section without rotation. The thickness, and
+//! with it where the drag rises, follows the radius within a region, too.
 
 use serde::Deserialize;
 
@@ -42,7 +43,7 @@ pub struct Params {
     pub lift_coefficient: Table2,
     /// cd, alike.
     pub drag_coefficient: Table2,
-    /// t/c by the region's outer end.
+    /// t/c over the part of the radius.
     pub thickness_norm: Table1,
     /// M at the tip when the tables hold: M_t is that of the region's middle.
     pub table_tip_mach: f64,
@@ -56,15 +57,15 @@ impl Params {
     /// Why the sections cannot be used, if so.
     pub fn fault(&self) -> Option<&'static str> {
         let (lift, drag) = (&self.lift_coefficient, &self.drag_coefficient);
-        let thickness = &self.thickness_norm;
-        lift.fault().or_else(|| drag.fault()).or_else(|| thickness.fault()).or_else(|| {
+        let thickness = self.thickness_norm.fault();
+        lift.fault().or_else(|| drag.fault()).or(thickness).or_else(|| {
             let step = lift.y[1] - lift.y[0];
             let even = lift.y.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step);
             let known = lift.y.iter().skip(self.drag_offset());
             let same = drag.y.len() <= known.len()
                 && drag.y.iter().zip(known).all(|(a, b)| (a - b).abs() < 1e-9);
-            if lift.x.len() != REGIONS || drag.x != lift.x || thickness.x != lift.x {
-                Some("the same four regions in lift, drag and thickness")
+            if lift.x.len() != REGIONS || drag.x != lift.x {
+                Some("the same four regions in lift and drag")
             } else if !even || lift.y.len() > ANGLES_MAX {
                 Some("sixteen angles at most, in equal steps")
             } else if !same {
@@ -88,28 +89,34 @@ impl Params {
                 let k = j.saturating_sub(first).min(row.len() - 2);
                 row[k] + (j as f64 - (first + k) as f64) * (row[k + 1] - row[k])
             };
-            let mut cells = [[0.0; 4]; ANGLES_MAX];
-            for (j, cell) in cells.iter_mut().enumerate().take(last) {
-                let (cl, cd) = (lift.z[i][j], drag_at(j));
-                *cell = [cl, cd, lift.z[i][j + 1] - cl, drag_at(j + 1) - cd];
-            }
+            let cells = |value: &dyn Fn(usize) -> f64| {
+                let mut cells = [[0.0; 2]; ANGLES_MAX];
+                for (j, cell) in cells.iter_mut().enumerate().take(last) {
+                    *cell = [value(j), value(j + 1) - value(j)];
+                }
+                cells
+            };
             let inner = if i > 0 { lift.x[i - 1] } else { root_norm };
             let mach = self.table_tip_mach * 0.5 * (inner + lift.x[i]);
             let zero_lift_rad = lift.y[0] + step * root(&lift.z[i]);
             Region {
-                cells,
-                from_rad: lift.y[0],
-                to_rad: lift.y[last],
+                lift: cells(&|j| lift.z[i][j]),
+                drag: cells(&drag_at),
                 per_step: 1.0 / step,
                 cell_max: last as f64 - 1.0,
                 zero_lift_rad,
+                zero_lift_steps: root(&lift.z[i]),
                 lift_slope_per_rad: slope(&lift.z[i]) / step,
                 to_stall_rad: lift.y[greatest(&lift.z[i])] - zero_lift_rad,
                 table_mach: mach,
                 table_beta: sqrt(1.0 - math::square(mach)),
-                rise_mach: self.korn_factor - self.thickness_norm.y[i] - DIVERGENCE,
             }
         })
+    }
+
+    /// M_cr without lift, at this part of the radius.
+    pub fn rise_mach(&self, radius_norm: f64) -> f64 {
+        self.korn_factor - self.thickness_norm.at(radius_norm) - DIVERGENCE
     }
 
     /// K − 1 at a chord over radius; the correlation knows none beyond a half.
@@ -145,14 +152,16 @@ fn greatest(row: &[f64]) -> usize {
 /// The section of one region of the blade.
 #[derive(Clone, Copy, Debug)]
 pub struct Region {
-    /// cl and cd where each step of α begins, and how much they grow over it.
-    cells: [[f64; 4]; ANGLES_MAX],
-    from_rad: f64,
-    to_rad: f64,
+    /// cl where each step of α begins, and how much it grows over it.
+    lift: Cells,
+    /// cd, alike.
+    drag: Cells,
     per_step: f64,
     cell_max: f64,
     /// α0.
     pub zero_lift_rad: f64,
+    /// The same in steps from where the table begins.
+    zero_lift_steps: f64,
     /// a.
     lift_slope_per_rad: f64,
     /// αs − α0, to the greatest lift.
@@ -161,9 +170,10 @@ pub struct Region {
     table_mach: f64,
     /// √(1 − M_t²).
     table_beta: f64,
-    /// M_cr without lift.
-    rise_mach: f64,
 }
+
+/// Where each step of α begins, and how much the value grows over it.
+type Cells = [[f64; 2]; ANGLES_MAX];
 
 /// What a section does, by lanes.
 #[derive(Clone, Copy, Debug)]
@@ -187,7 +197,8 @@ const DELAY_END: f64 = 0.866_025_403_784_438_6;
 pub const LIFT_SLOPE: f64 = 5.7;
 
 impl Region {
-    /// Coefficients at the angle of attack with this sine and cosine; `delay` is (K − 1)·(Ωr/U)².
+    /// Coefficients at the angle of attack with this sine and cosine; `delay` is (K − 1)·(Ωr/U)²,
+    /// `rise_mach` M_cr without lift.
     ///
     /// What most blades meet nowhere most of the time is left out where no lane needs it: there it
     /// would add zeros.
@@ -197,6 +208,7 @@ impl Region {
         (s, cos_alpha): (Lanes, Lanes),
         mach: Lanes,
         delay: Lanes,
+        rise_mach: f64,
     ) -> Coefficients {
         // What is not known is the plate's: NaN, too.
         let known = cos_alpha.above(0.0) & s.below(DELAY_END) & s.above(-PLATE_BELOW);
@@ -206,26 +218,29 @@ impl Region {
         let slope = self.table_beta / lanes::sqrt(1.0 - min(square(mach), MACH2_MAX));
         let lifting = (alpha - self.zero_lift_rad) * slope;
         let delayed = delay * clamp(lifting, 0.0, self.to_stall_rad);
-        let beyond = s.above(0.0).select(
-            (s - delayed * cos_alpha - STALL) * (1.0 / (PLATE - STALL)),
-            (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW)),
-        );
-        let (table_lift, table_drag) = self.table(self.zero_lift_rad + lifting - delayed);
+        let steps = lifting * self.per_step + self.zero_lift_steps;
+        let table_lift = self.table(&self.lift, steps - delayed * self.per_step);
+        let table_drag = max(self.table(&self.drag, steps), 0.0);
+        let above = s.above(0.0);
+        let past = (s - STALL) * (1.0 / (PLATE - STALL));
+        let below = (-s - STALL_BELOW) * (1.0 / (PLATE_BELOW - STALL_BELOW));
+        let dragging = above.select(past, below);
         let fade = min((DELAY_END - s) * (1.0 / (DELAY_END - PLATE)), 1.0);
         let held = fade * self.lift_slope_per_rad * delayed;
 
         let mut found =
             Coefficients { lift: table_lift + held, drag: table_drag, stalled: 0.0.into() };
-        if (!known | beyond.above(0.0)).any() {
+        if (!known | dragging.above(0.0)).any() {
             let (plate_lift, plate_drag) = (2.0 * s * cos_alpha, 0.01 + 1.9 * s * s);
-            let stalled = clamp(beyond, 0.0, 1.0);
+            let held_off = delayed * cos_alpha * (1.0 / (PLATE - STALL));
+            let stalled = clamp(above.select(past - held_off, below), 0.0, 1.0);
             let lift = table_lift + stalled * (plate_lift - table_lift) + held;
-            let drag = table_drag + stalled * (plate_drag - table_drag);
+            let drag = table_drag + clamp(dragging, 0.0, 1.0) * (plate_drag - table_drag);
             found.lift = known.select(lift, plate_lift);
             found.drag = known.select(drag, plate_drag);
             found.stalled = known.select(stalled, 1.0);
         }
-        let rise_mach = self.rise_mach - 0.1 * found.lift.abs();
+        let rise_mach = rise_mach - 0.1 * found.lift.abs();
         let rises = mach.above(rise_mach);
         if rises.any() {
             let more = rise(mach - rise_mach) - rise(self.table_mach - rise_mach);
@@ -234,16 +249,14 @@ impl Region {
         found
     }
 
-    /// cl and cd: linear between the points and below them, held above.
+    /// A value so many steps into its table: linear between the points and below them, held above.
     #[inline(always)]
-    fn table(&self, alpha_rad: Lanes) -> (Lanes, Lanes) {
-        let steps = (min(alpha_rad, self.to_rad) - self.from_rad) * self.per_step;
+    fn table(&self, cells: &Cells, steps: Lanes) -> Lanes {
+        let steps = min(steps, self.cell_max + 1.0);
         let (cell, index) = whole(clamp(steps, 0.0, self.cell_max));
-        let at = steps - cell;
-        let cells = index.map(|index| self.cells[index as usize % ANGLES_MAX]);
-        let [cl, cd, more_cl, more_cd] =
-            core::array::from_fn(|part| Lanes::from_fn(|lane| cells[lane][part]));
-        (cl + at * more_cl, max(cd + at * more_cd, 0.0))
+        let cells = index.map(|index| cells[index as usize % ANGLES_MAX]);
+        let [from, more] = core::array::from_fn(|part| Lanes::from_fn(|lane| cells[lane][part]));
+        from + (steps - cell) * more
     }
 }
 
@@ -251,4 +264,63 @@ impl Region {
 #[inline(always)]
 fn rise(beyond: Lanes) -> Lanes {
     20.0 * square(square(clamp(beyond, 0.0, 0.3)))
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use super::*;
+    use crate::math::{cos, sin};
+    use crate::units::DEGREE_RAD as DEG;
+
+    fn params() -> Params {
+        let ends = vec![0.55, 0.80, 0.95, 1.0];
+        let angles: vec::Vec<f64> = (-3..=6).map(|i| f64::from(2 * i) * DEG).collect();
+        let lift = vec![-0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95];
+        let drag = vec![0.012, 0.01, 0.008, 0.007, 0.008, 0.01, 0.014, 0.02, 0.03, 0.045];
+        let table = |row: vec::Vec<f64>| Table2 {
+            x: ends.clone(),
+            y: angles.clone(),
+            z: vec![row; REGIONS],
+        };
+        Params {
+            lift_coefficient: table(lift),
+            drag_coefficient: table(drag),
+            thickness_norm: Table1 { x: vec![0.25, 1.0], y: vec![0.25, 0.08] },
+            table_tip_mach: 0.0,
+            delay_exponent: 1.0,
+            korn_factor: 0.87,
+        }
+    }
+
+    /// cl and cd of the innermost region at an angle, a Mach number, a delay and a part of the radius.
+    fn at(alpha_deg: f64, mach: f64, delay: f64, radius_norm: f64) -> (f64, f64) {
+        let params = params();
+        let sine = (sin(alpha_deg * DEG).into(), cos(alpha_deg * DEG).into());
+        let rise_mach = params.rise_mach(radius_norm);
+        let region = &params.regions(0.0875)[0];
+        let found = region.coefficients(sine, mach.into(), delay.into(), rise_mach);
+        (found.lift.to_array()[0], found.drag.to_array()[0])
+    }
+
+    #[test]
+    fn rotation_holds_lift_and_leaves_drag() {
+        for alpha_deg in [4.0, 10.0, 16.0, 25.0] {
+            let (lift, drag) = at(alpha_deg, 0.1, 0.0, 0.3);
+            let (held, same) = at(alpha_deg, 0.1, 0.2, 0.3);
+            assert!(held > lift - 1e-12, "{alpha_deg} deg: {held} {lift}");
+            assert!((same - drag).abs() < 1e-15, "{alpha_deg} deg: {same} {drag}");
+        }
+        assert!(at(16.0, 0.1, 0.2, 0.3).0 > 1.1 * at(16.0, 0.1, 0.0, 0.3).0);
+    }
+
+    /// At Mach .6 a section of 25 % is beyond its rise, .87 - .25 - .108 = .51, one of 8 % is not.
+    #[test]
+    fn the_thicker_root_drags_first() {
+        let slow = at(0.0, 0.1, 0.0, 0.3).1;
+        assert!((at(0.0, 0.6, 0.0, 1.0).1 - slow).abs() < 1e-12);
+        let expected = 20.0 * math::square(math::square(0.6 - (0.87 - 0.25 - DIVERGENCE)));
+        assert!((at(0.0, 0.6, 0.0, 0.2).1 - slow - expected).abs() < 1e-12);
+    }
 }

@@ -119,8 +119,8 @@ pub(super) fn beyond(
         }
     }
     let governor = &aircraft.fcc.governor;
-    let lowest_rad = governor.collective_rad_min.at(state.actuators.mast_tilt_rad.mean());
-    let (low, high) = (lowest_rad, governor.collective_rad_max);
+    let low = governor.limit_rad(state.actuators.mast_tilt_rad.mean());
+    let high = governor.collective_rad_max;
     if report.collective_rad < low - 1e-9 || report.collective_rad > high + 1e-9 {
         return Some((
             "collective",
