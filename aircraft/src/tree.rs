@@ -124,6 +124,8 @@ const TABLES: &[(&str, &[&str])] = &[
     ("drag_coefficient", &["radius_norm", "alpha_rad"]),
     ("thickness_norm", &["radius_norm"]),
     ("download_near_ground", &["height_over_diameter"]),
+    ("downwind", &["advance_ratio"]),
+    ("abreast", &["advance_ratio"]),
     ("collective_rad_min", &["mast_tilt_rad"]),
     ("proportional_rad_per_radps", &["mast_tilt_rad"]),
     ("integral_rad_per_rad", &["mast_tilt_rad"]),

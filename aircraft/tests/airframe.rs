@@ -152,6 +152,7 @@ fn loads(xv15: &Aircraft, trim: &Trim) -> Loads {
     let fin_inputs = vertical_stabilizers::Inputs {
         motion,
         flow,
+        wake_mps: Vec3::zero(),
         mach,
         mast_tilt_rad: 0.0,
         flap_rad,

@@ -123,6 +123,7 @@ impl Params {
         tables
             .into_iter()
             .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+            .or_else(|| self.rotors.other_rotor.fault())
             .or_else(|| self.rotor_wake.fault())
             .or_else(|| self.wing_pylon.fault())
             .or_else(|| self.fuselage.fault())
