@@ -6,9 +6,9 @@
 //! w = x − x̄,  x̄˙ = w/τ_w                                  washed-out stick
 //! pitch: −K_q·q − K_θ·(θ − θ_h) + (f_q − 1)·w_aft           within ± its authority
 //! roll:  −K_p·p − K_φ·(φ − φ_h) + (f_p − 1)·w_right
-//! yaw:   −K_r·(r − g·sin φ·cos θ/V) − K_ψ·(ψ − ψ_h) + (f_r − 1)·w_pedal
+//! yaw:   −K_r·(r − g·sin φ·cos θ/V) − K_ψ·Δψ + (f_r − 1)·w_pedal
 //! hold:  θ_h, φ_h follow the attitude while the stick moves or the axis is off, stand while it rests;
-//!        ψ_h follows the heading too while the nose or a bank turns it
+//!        Δψ˙ = r·cos φ + q·sin φ while the pedals rest and nothing turns, else Δψ goes to 0
 //! ```
 //! Gains fall with dynamic pressure by 1/(1 + q̄/q̄0).
 //!
@@ -32,9 +32,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::sensed::Sensed;
-use crate::math::{FRAC_PI_2, clamp, cos, max, min, ramp, sin, wrap_angle};
+use crate::listing::flags;
+use crate::math::{clamp, cos, max, min, ramp, sin, wrap_angle};
 use crate::table::Table1;
 use crate::{GRAVITY_MPS2, STEP_S};
+
+/// No speed that is not the held one takes the nose further than this by itself, up or down.
+const BY_SPEED_RAD_MAX: f64 = 0.35;
 
 /// What the SCAS is set to.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -114,15 +118,15 @@ pub struct State {
     pub held_pitch_rad: f64,
     /// φ_h.
     pub held_roll_rad: f64,
-    /// ψ_h.
-    pub held_heading_rad: f64,
+    /// Δψ: how far the nose has turned since its heading is held.
+    pub turned_rad: f64,
     /// V_h.
     pub held_airspeed_mps: f64,
     /// x_t.
     pub trim_aft_m: f64,
 }
 
-/// What the SCAS adds to the sticks, and whether that is all it may. Booleans are 0 or 1.
+/// What the SCAS adds to the sticks, and whether that is all it may.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outputs {
     /// To the longitudinal stick, the trim apart.
@@ -135,14 +139,35 @@ pub struct Outputs {
     pub trim_aft_m: f64,
     /// 1 while the automatic pitch trim is at work.
     pub trims: u64,
-    /// 1 while the pitch axis is at the end of its authority.
-    pub pitch_saturated: u64,
-    /// 1 while the roll axis is.
-    pub roll_saturated: u64,
-    /// 1 while the yaw axis is.
-    pub yaw_saturated: u64,
-    /// 1 while the automatic pitch trim is.
-    pub trim_saturated: u64,
+    /// What is at the end of its authority.
+    pub saturated: Saturation,
+}
+
+/// What is told of a flag of [`Saturation`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SaturationFacts {
+    /// Which.
+    pub flag: Saturation,
+    /// Its name in files and recordings; never changed.
+    pub key: &'static str,
+    /// Its name in words.
+    pub words: &'static str,
+    /// When it is set.
+    pub description: &'static str,
+}
+
+flags! {
+    /// What of the SCAS is at the end of its authority.
+    pub struct Saturation tells SaturationFacts {
+        /// The pitch axis asks for more than it may add.
+        PITCH = 0 { key: "pitch", words: "pitch" }
+        /// The roll axis does.
+        ROLL = 1 { key: "roll", words: "roll" }
+        /// The yaw axis does.
+        YAW = 2 { key: "yaw", words: "yaw" }
+        /// The automatic pitch trim is at its end.
+        PITCH_TRIM = 3 { key: "pitch_trim", words: "pitch trim" }
+    }
 }
 
 /// The pilot's sticks, from neutral.
@@ -230,20 +255,27 @@ impl Moment<'_> {
         } else {
             (0.0, step * (sensed.airspeed_mps - state.held_airspeed_mps))
         };
+        // Who has let go in a steep attitude keeps it.
+        let highest_rad = max(held_pitch_rad.abs(), BY_SPEED_RAD_MAX);
         State {
             mean_aft_m: state.mean_aft_m + washout_step * washed_out.aft_m,
             mean_right_m: state.mean_right_m + washout_step * washed_out.right_m,
             mean_pedal_right_m: state.mean_pedal_right_m + washout_step * washed_out.pedal_right_m,
-            held_pitch_rad: clamp(held_pitch_rad + pitch_step_rad, -FRAC_PI_2, FRAC_PI_2),
+            held_pitch_rad: clamp(held_pitch_rad + pitch_step_rad, -highest_rad, highest_rad),
             held_roll_rad: follow(roll_rests, state.held_roll_rad, euler.roll_rad),
-            held_heading_rad: follow(
-                self.holds_heading(),
-                state.held_heading_rad,
-                euler.heading_rad,
-            ),
+            turned_rad: self.turned(state, step),
             held_airspeed_mps: state.held_airspeed_mps + airspeed_step_mps,
             trim_aft_m: state.trim_aft_m,
         }
+    }
+
+    /// Δψ after the tick. That the nose points exactly the other way cannot come up: it has no side.
+    fn turned(&self, state: &State, step: f64) -> f64 {
+        if !self.holds_heading() {
+            return state.turned_rad - step * state.turned_rad;
+        }
+        let (rate, roll_rad) = (self.sensed.angular_rate_radps, self.sensed.euler.roll_rad);
+        state.turned_rad + STEP_S * (rate.z * cos(roll_rad) + rate.y * sin(roll_rad))
     }
 
     /// The series commands, and which axes are at their ends.
@@ -253,12 +285,12 @@ impl Moment<'_> {
         let (rate, euler) = (sensed.angular_rate_radps, sensed.euler);
         let command = |axis: &Axis, works: bool, rate_radps: f64, hold_m: f64, moved_m: f64| {
             if !works {
-                return (0.0, 0);
+                return (0.0, false);
             }
             let m = -scale * (axis.rate_gain_m_per_radps * rate_radps + hold_m)
                 + (axis.feed_forward - 1.0) * moved_m;
             let within_m = clamp(m, -axis.authority_m, axis.authority_m);
-            (within_m, u64::from(m.abs() > axis.authority_m))
+            (within_m, m.abs() > axis.authority_m)
         };
         let held = |axis: &Axis, off_rad: f64| {
             let hold_m = axis.attitude_gain_m_per_rad * wrap_angle(off_rad);
@@ -266,36 +298,41 @@ impl Moment<'_> {
         };
         let pitch_off_rad = euler.pitch_rad - next.held_pitch_rad;
         let pitch_hold_m = if self.trims {
-            let by_speed_rad =
-                params.pitch_trim.attitude_by_speed_s_rad_per_m * self.too_fast_mps(next);
-            params.pitch_trim.attitude_gain_m_per_rad * wrap_angle(pitch_off_rad - by_speed_rad)
+            let trim = &params.pitch_trim;
+            let by_speed_rad = clamp(
+                trim.attitude_by_speed_s_rad_per_m * self.too_fast_mps(next),
+                -BY_SPEED_RAD_MAX,
+                BY_SPEED_RAD_MAX,
+            );
+            trim.attitude_gain_m_per_rad * wrap_angle(pitch_off_rad - by_speed_rad)
         } else {
             held(&params.pitch, pitch_off_rad)
         };
         let roll_hold_m = held(&params.roll, euler.roll_rad - next.held_roll_rad);
-        let heading_hold_m = held(&params.yaw, euler.heading_rad - next.held_heading_rad);
+        let heading_hold_m = held(&params.yaw, next.turned_rad);
         let yaw_radps = rate.z - self.turn_radps;
-        let (aft_m, pitch_saturated) =
+        let (aft_m, pitch) =
             command(&params.pitch, on.pitch, rate.y, pitch_hold_m, washed_out.aft_m);
-        let (right_m, roll_saturated) =
+        let (right_m, roll) =
             command(&params.roll, on.roll, rate.x, roll_hold_m, washed_out.right_m);
-        let (pedal_right_m, yaw_saturated) =
+        let (pedal_right_m, yaw) =
             command(&params.yaw, on.yaw, yaw_radps, heading_hold_m, washed_out.pedal_right_m);
+        let mut saturated = Saturation::empty();
+        saturated.set(Saturation::PITCH, pitch);
+        saturated.set(Saturation::ROLL, roll);
+        saturated.set(Saturation::YAW, yaw);
         Outputs {
             aft_m,
             right_m,
             pedal_right_m,
             trim_aft_m: next.trim_aft_m,
             trims: u64::from(self.trims),
-            pitch_saturated,
-            roll_saturated,
-            yaw_saturated,
-            trim_saturated: 0,
+            saturated,
         }
     }
 
     /// x_t after the tick, and whether it is at its end.
-    fn trim(&self, state: &State, added_aft_m: f64) -> (f64, u64) {
+    fn trim(&self, state: &State, added_aft_m: f64) -> (f64, bool) {
         let Self { sensed, params, .. } = self;
         let &PitchTrim { take_over_s, trim_mps_max, authority_m, .. } = &params.pitch_trim;
         let trim_aft_m = state.trim_aft_m;
@@ -308,7 +345,7 @@ impl Moment<'_> {
             0.0
         };
         let moved_m = trim_aft_m + STEP_S * clamp(wanted_mps, -trim_mps_max, trim_mps_max);
-        (clamp(moved_m, -authority_m, authority_m), u64::from(moved_m.abs() > authority_m))
+        (clamp(moved_m, -authority_m, authority_m), moved_m.abs() > authority_m)
     }
 }
 
@@ -337,8 +374,10 @@ pub fn update(
     now.trims = let_go && now.rests(on.pitch, now.washed_out.aft_m);
     let mut next = now.remembered(state);
     let mut added = now.series(&next);
-    (next.trim_aft_m, added.trim_saturated) = now.trim(state, added.aft_m);
-    added.trim_aft_m = next.trim_aft_m;
+    let (trim_aft_m, at_end) = now.trim(state, added.aft_m);
+    next.trim_aft_m = trim_aft_m;
+    added.trim_aft_m = trim_aft_m;
+    added.saturated.set(Saturation::PITCH_TRIM, at_end);
     let augmented = Sticks {
         aft_m: sticks.aft_m + added.aft_m + next.trim_aft_m,
         right_m: sticks.right_m + added.right_m,
@@ -348,8 +387,8 @@ pub fn update(
     (next, augmented, added)
 }
 
-/// What the SCAS remembers once the sticks have rested: they are their own mean, attitude, heading and
-/// airspeed are the held ones, and nothing is trimmed away.
+/// What the SCAS remembers once the sticks have rested: they are their own mean, attitude and airspeed
+/// are the held ones, and nothing has turned or is trimmed away.
 pub fn settled(sticks: &Sticks, sensed: &Sensed) -> State {
     State {
         mean_aft_m: sticks.aft_m,
@@ -357,7 +396,7 @@ pub fn settled(sticks: &Sticks, sensed: &Sensed) -> State {
         mean_pedal_right_m: sticks.pedal_right_m,
         held_pitch_rad: sensed.euler.pitch_rad,
         held_roll_rad: sensed.euler.roll_rad,
-        held_heading_rad: sensed.euler.heading_rad,
+        turned_rad: 0.0,
         held_airspeed_mps: sensed.airspeed_mps,
         trim_aft_m: 0.0,
     }
