@@ -10,9 +10,11 @@ mod dynamics;
 mod fits;
 mod flown;
 mod hover;
+mod lateral;
 mod page;
 mod performance;
 mod pictures;
+mod sidling;
 mod trims;
 
 use std::fs;
@@ -40,6 +42,11 @@ fn generate() -> Vec<(String, String)> {
     dynamics::symmetry(&aircraft, &mut book);
     performance::autorotation(&aircraft, &mut book);
     airframe::components(&aircraft, &mut book);
+    lateral::qualities(&aircraft, &mut book);
+    lateral::derivatives(&aircraft, &mut book);
+    lateral::sideward(&aircraft, &mut book);
+    lateral::sideslips(&aircraft, &mut book);
+    lateral::engine_out(&aircraft, &mut book);
     let mut files = pictures::all(&aircraft);
     files.push(("VALIDATION.md".into(), page::page(&book)));
     files
