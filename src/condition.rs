@@ -38,9 +38,9 @@ pub struct Condition {
     #[arg(long, value_name = "DEG", conflicts_with = "turn_degps")]
     #[arg(value_parser = between(-75.0, 75.0, "deg"), allow_negative_numbers = true)]
     pub bank_deg: Option<f64>,
-    /// Sideslip, air from the right positive, deg
+    /// Sideslip, air from the right positive, deg: 90 is flight to the right, 180 rearward
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
-    #[arg(value_parser = between(-90.0, 90.0, "deg"), allow_negative_numbers = true)]
+    #[arg(value_parser = between(-180.0, 180.0, "deg"), allow_negative_numbers = true)]
     pub sideslip_deg: f64,
     /// Gross weight, lb
     #[arg(long, value_name = "LB", default_value_t = 13_000.0)]

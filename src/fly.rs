@@ -42,7 +42,7 @@ pub struct Args {
     /// Fly with the sticks that are plugged in
     #[arg(long)]
     stick: bool,
-    /// Let a pilot model fly: hover, demo, takeoff, convert, turn, reconvert, land,
+    /// Let a pilot model fly: hover, demo, takeoff, convert, turn, reconvert, land, sideways,
     /// sweep-pitch, sweep-roll, sweep-yaw, sweep-lever
     #[arg(long, value_name = "NAME")]
     pilot: Option<String>,

@@ -112,6 +112,9 @@ impl Lines {
 
 /// The engine's tables: (key, arguments), in SI. A key that two blocks have counts with either's.
 const TABLES: &[(&str, &[&str])] = &[
+    ("attitude_by_tilt_norm", &["mast_tilt_rad"]),
+    ("stick_by_tilt_m_per_rad", &["mast_tilt_rad"]),
+    ("speed_by_tilt_mps_per_rad", &["mast_tilt_rad"]),
     ("collective_per_lever_rad_per_m", &["mast_tilt_rad"]),
     ("collective_per_lateral_stick_rad_per_m", &["mast_tilt_rad"]),
     ("cyclic_per_longitudinal_stick_rad_per_m", &["mast_tilt_rad"]),
@@ -124,6 +127,8 @@ const TABLES: &[(&str, &[&str])] = &[
     ("drag_coefficient", &["radius_norm", "alpha_rad"]),
     ("thickness_norm", &["radius_norm"]),
     ("download_near_ground", &["height_over_diameter"]),
+    ("downwind", &["advance_ratio"]),
+    ("abreast", &["advance_ratio"]),
     ("lever_bottom_rad", &["mast_tilt_rad"]),
     ("proportional_rad_per_radps", &["mast_tilt_rad"]),
     ("integral_rad_per_rad", &["mast_tilt_rad"]),

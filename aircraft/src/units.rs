@@ -16,6 +16,7 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("ft2", "m2", FT * FT),
     ("ft3", "m3", FT * FT * FT),
     ("ftps", "mps", FT),
+    ("inps", "mps", IN),
     ("fpm", "mps", FPM),
     ("kt", "mps", KT),
     ("deg", "rad", DEG),
@@ -48,6 +49,7 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("in_per_rad", "m_per_rad", IN),
     ("in_per_deg", "m_per_rad", IN / DEG),
     ("in_per_radps", "m_per_radps", IN),
+    ("kt_per_deg", "mps_per_rad", KT / DEG),
     ("in_per_degps", "m_per_radps", IN / DEG),
 ];
 

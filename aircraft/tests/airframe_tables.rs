@@ -390,6 +390,7 @@ fn the_fins_turn_the_nose_into_the_wind() {
         let inputs = vertical_stabilizers::Inputs {
             motion,
             flow: local_flow(motion.airspeed_mps, motion.density_kg_per_m3),
+            wake_mps: Vec3::zero(),
             mach: 0.31,
             mast_tilt_rad: 0.5 * PI,
             flap_rad: 0.0,

@@ -99,7 +99,11 @@ impl Params {
     /// Where a table cannot be used, and why, if so.
     pub fn fault(&self) -> Option<(&'static str, &'static str)> {
         let mixer = &self.fcc.mixer;
+        let pitch_trim = &self.fcc.scas.pitch_trim;
         let tables = [
+            ("fcc.scas.pitch_trim.attitude_by_tilt", pitch_trim.attitude_by_tilt_norm.fault()),
+            ("fcc.scas.pitch_trim.stick_by_tilt", pitch_trim.stick_by_tilt_m_per_rad.fault()),
+            ("fcc.scas.pitch_trim.speed_by_tilt", pitch_trim.speed_by_tilt_mps_per_rad.fault()),
             ("fcc.mixer.collective_per_lever", mixer.collective_per_lever_rad_per_m.fault()),
             (
                 "fcc.mixer.collective_per_lateral_stick",
@@ -123,6 +127,7 @@ impl Params {
         tables
             .into_iter()
             .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+            .or_else(|| self.rotors.other_rotor.fault())
             .or_else(|| self.rotor_wake.fault())
             .or_else(|| self.wing_pylon.fault())
             .or_else(|| self.fuselage.fault())

@@ -11,7 +11,7 @@ use crate::math::{sin_cos, sqrt, square};
 use crate::pair::Pair;
 use crate::state::Geodetic;
 use crate::struts::Struts;
-use crate::{actuators, engines, environment, rotors, weight_balance};
+use crate::{actuators, engines, environment, fcc, rotors, weight_balance};
 
 /// How much of the answer is left when the model is outside its validity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -156,6 +156,8 @@ pub struct Outputs {
     pub cockpit: PilotControls,
     /// What the computer asks for.
     pub commands: Commands,
+    /// What the SCAS adds to the sticks.
+    pub scas: fcc::scas::Outputs,
     /// Where the surfaces, nacelles and gear are.
     pub actuators: actuators::State,
     /// Ω.

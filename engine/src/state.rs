@@ -182,6 +182,7 @@ numbers! {
     fcc::State { scas, governor }
     fcc::scas::State {
         mean_aft_m, mean_right_m, mean_pedal_right_m, held_pitch_rad, held_roll_rad,
+        turned_rad, held_airspeed_mps, trim_aft_m,
     }
     fcc::governor::State { reference_radps, integral_rad, correction_rad }
     actuators::State {

@@ -27,8 +27,8 @@ use crate::{
 /// Advances the aircraft by one tick. Same arguments, same bits.
 pub fn step(aircraft: &Aircraft, state: &State, inputs: &Inputs) -> (State, Outputs) {
     let mut next = *state;
-    let (blocks, commands) = tick(aircraft, state, inputs, &mut next);
-    let outputs = outputs(aircraft, &blocks, &next, &commands);
+    let (blocks, computer) = tick(aircraft, state, inputs, &mut next);
+    let outputs = outputs(aircraft, &blocks, &next, &computer);
     (next, outputs)
 }
 
@@ -39,13 +39,13 @@ pub fn step_state(aircraft: &Aircraft, state: &mut State, inputs: &Inputs) {
 }
 
 /// One tick of the state: `next` begins as a copy of it. What the blocks say of it, and what the
-/// computer asks for.
+/// computer gives, or the commands from outside in its place.
 fn tick(
     aircraft: &Aircraft,
     state: &State,
     inputs: &Inputs,
     next: &mut State,
-) -> (Blocks, Commands) {
+) -> (Blocks, fcc::Outputs) {
     next.tick = state.tick.wrapping_add(1);
     let passed_s = if inputs.world.paused == 0 { STEP_S } else { 0.0 };
     next.cockpit = cockpit::update(&aircraft.cockpit, &state.cockpit, inputs.events, passed_s);
@@ -53,15 +53,15 @@ fn tick(
     // Sampled once, held through the tick.
     let (environment, air) = weather(state, &inputs.world);
     let sensed = sense(state, &air);
-    let (fcc, commands) =
+    let (fcc, mut computer) =
         fcc::update(&aircraft.fcc, &state.fcc, &next.cockpit, &sensed, &inputs.world);
-    let commands = inputs.world.outside_commands().unwrap_or(commands);
+    computer.commands = inputs.world.outside_commands().unwrap_or(computer.commands);
     if inputs.world.paused != 0 || state.frozen != 0 {
         // What the computer asks for stays to be seen; what it remembers does not move. The rates
         // of the tick before the pause stay too, so that the motion goes on as if there were none.
-        return (Blocks::evaluate(aircraft, next, &inputs.world, &air), commands);
+        return (Blocks::evaluate(aircraft, next, &inputs.world, &air), computer);
     }
-    next.actuators = moved(aircraft, state, &commands);
+    next.actuators = moved(aircraft, state, &computer.commands);
     next.fcc = fcc;
     next.environment = environment;
 
@@ -73,7 +73,7 @@ fn tick(
     if !next.make_zeros_positive() {
         *next = State { frozen: 1, tick: next.tick, cockpit: next.cockpit, ..*state };
     }
-    (blocks, commands)
+    (blocks, computer)
 }
 
 /// The actuators one tick later.
@@ -96,12 +96,13 @@ pub fn observe(aircraft: &Aircraft, state: &State, world: &World) -> Outputs {
 pub fn derivatives(aircraft: &Aircraft, state: &State, world: &World) -> (State, Outputs) {
     let (environment, air) = weather(state, world);
     let sensed = sense(state, &air);
-    let (fcc, commands) = fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
-    let commands = world.outside_commands().unwrap_or(commands);
-    let actuators = moved(aircraft, state, &commands);
+    let (fcc, mut computer) =
+        fcc::update(&aircraft.fcc, &state.fcc, &state.cockpit, &sensed, world);
+    computer.commands = world.outside_commands().unwrap_or(computer.commands);
+    let actuators = moved(aircraft, state, &computer.commands);
     let blocks = Blocks::evaluate(aircraft, state, world, &air);
     let plant = advance(&state.plant, &blocks, &blocks.rate);
-    let outputs = outputs(aircraft, &blocks, state, &commands);
+    let outputs = outputs(aircraft, &blocks, state, &computer);
     (State { fcc, actuators, environment, plant, rate: blocks.rate, ..*state }, outputs)
 }
 
@@ -140,6 +141,7 @@ fn sense(state: &State, air: &environment::Outputs) -> fcc::Sensed {
         dynamic_pressure_pa: 0.5 * air.density_kg_per_m3 * square(airspeed_mps),
         rotor_speed_radps: plant.rotor_speed_radps,
         mast_tilt_rad: state.actuators.mast_tilt_rad.mean(),
+        mast_tilt_rate_radps: state.actuators.mast_tilt_rate_radps.mean(),
         weight_on_wheels: plant.weight_on_wheels != 0,
     }
 }

@@ -82,6 +82,7 @@ impl Mirror for fcc::State {
                 mean_right_m: -self.scas.mean_right_m,
                 mean_pedal_right_m: -self.scas.mean_pedal_right_m,
                 held_roll_rad: -self.scas.held_roll_rad,
+                turned_rad: -self.scas.turned_rad,
                 ..self.scas
             },
             ..*self

@@ -83,8 +83,12 @@ fn held(aircraft: &Aircraft, printed: &Printed) -> (Outputs, Outputs) {
         engine::step::derivatives(aircraft, &settled, &world).1
     });
     let mut forced = settled;
+    // The printed velocity has the other rotor's upwash in it; a rotor remembers its own.
+    let tip_mps = settled.plant.rotor_speed_radps * aircraft.rotors.radius_m;
+    let abreast = &aircraft.rotors.other_rotor.abreast;
+    let own = 1.0 / (1.0 + abreast.at(printed.forward_ftps * FOOT_M / tip_mps));
     for rotor in [&mut forced.plant.rotors.left, &mut forced.plant.rotors.right] {
-        rotor.inflow.mean_mps = printed.induced_ftps * FOOT_M;
+        rotor.inflow.mean_mps = own * printed.induced_ftps * FOOT_M;
     }
     let forced = collective(thrust_n, |collective_rad| {
         forced.actuators.collective_rad = Pair::both(collective_rad);

@@ -49,7 +49,6 @@ pub enum Class {
     /// Prediction of 1975, before the first flight.
     C,
     /// A closed form of the literature, worked out for this aircraft.
-    #[allow(dead_code, reason = "no case of today needs it; the rows of lateral flight will")]
     Theory,
     /// No source: our own requirement.
     Own,

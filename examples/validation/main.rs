@@ -13,11 +13,13 @@ mod flaps;
 mod flown;
 mod hover;
 mod identified;
+mod lateral;
 mod page;
 mod performance;
 mod pictures;
 mod power_off;
 mod rotor_stand;
+mod sidling;
 mod trims;
 
 use std::fs;
@@ -50,6 +52,11 @@ fn generate() -> Vec<(String, String)> {
     rotor_stand::in_wind(&aircraft, &mut book);
     envelope::aeroplane(&aircraft, &mut book);
     envelope::ceilings(&aircraft, &mut book);
+    lateral::qualities(&aircraft, &mut book);
+    lateral::derivatives(&aircraft, &mut book);
+    lateral::sideward(&aircraft, &mut book);
+    lateral::sideslips(&aircraft, &mut book);
+    lateral::engine_out(&aircraft, &mut book);
     identified::responses(&aircraft, &mut book);
     let mut files = pictures::all(&aircraft);
     files.push(("VALIDATION.md".into(), page::page(&book)));

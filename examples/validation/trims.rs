@@ -142,7 +142,9 @@ pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
         "Against the printouts ±.3 deg and ±.15 in, which only a model with the same tables could hold; \
          against the figure ±1.5 deg, ±.5 in and ±8 %, which holds the reading (±.7 deg, ±1.4 %, \
          ±43 kW) twice. Flight and GTRS are 3.5 to 5 deg apart in pitch and 120 kW in power at 40 to \
-         60 kt: no model passes both. The rotor is not what flight has more of: in the tunnel it agrees \
+         60 kt: no model passes both. The upwash beside the other rotor (table 1-III, which the printed \
+         induced velocities confirm to .2 %) takes 20 kW at 60 kt and 30 at 80 and moves the stick .1 in forward. \
+         The rotor is not what flight has more of: in the tunnel it agrees \
          at these advance ratios within .0002 of C_Q/sigma, 13 kW a rotor (`aircraft`, test `rotor`). \
          Weight, flaps and height of the flight points are not at hand. What is missed against the \
          printouts is the rotor's: for the \

@@ -1,6 +1,8 @@
-//! Tells in events what the numbers say: markers, failures, weather, devices, fuel, validity, wheels.
+//! Tells in events what the numbers say: markers, failures, weather, devices, fuel, validity, SCAS, wheels.
 
+mod chatter;
 mod observed;
+mod saturation;
 mod validity;
 mod wheels;
 
@@ -23,6 +25,7 @@ pub struct Narrator {
     gust_told: bool,
     has_fuel: bool,
     validity: validity::Told,
+    saturation: saturation::Told,
     wheels: wheels::Told,
 }
 
@@ -35,6 +38,7 @@ impl Narrator {
             gust_told: false,
             has_fuel: initial.plant.fuel_kg > 0.0,
             validity: validity::Told::default(),
+            saturation: saturation::Told::default(),
             wheels: wheels::Told::new(initial, airframe),
         }
     }
@@ -162,6 +166,10 @@ impl Narrator {
         // Nobody fills the tanks in flight; a drop that comes back by rounding is none.
         self.has_fuel &= has_fuel;
         self.wheels.look(writer, state, seen)?;
+        if let Some(words) = self.saturation.look(state.tick, seen.saturated) {
+            let flags = self.saturation.flags.bits();
+            writer.happened(state.tick, Happening::Saturation, flags, [0.0; 2], &words)?;
+        }
         let Some(words) = self.validity.look(state.tick, seen.validity) else { return Ok(()) };
         let flags = self.validity.flags.bits();
         writer.happened(state.tick, Happening::Validity, flags, [0.0; 2], &words)

@@ -278,6 +278,11 @@ engine::enumeration! {
             key: "situation_saved", value: "its number in the flight, 0 when it could not be saved",
             levels: Levels::with_zero(Level::Warn, Level::Info),
         }
+        /// An axis of the SCAS, or its pitch trim, came to the end of what it may add, or has room again.
+        Saturation = 22 {
+            key: "scas_saturation", value: "the axes now: bit 0 pitch, 1 roll, 2 yaw, 3 the pitch trim",
+            levels: Levels::always(Level::Info),
+        }
     }
 }
 

@@ -345,6 +345,79 @@ fn whatever_it_begins_in_the_land_pilot_lands() {
     }
 }
 
+/// Speeds at the greatest of which it keeps its nose and height: to the right and left 35 kt, rearward 20.
+#[test]
+fn the_sideways_pilot_flies_to_either_side_and_rearward_and_lands() {
+    let xv15 = xv15();
+    let start = calm();
+    let (mut fastest_mps, mut turned_rad, mut height_off_m) = ([0.0; 3], 0.0, 0.0);
+    let mut outside = Validity::empty();
+    let mut phases = Vec::new();
+    let (state, end) =
+        rehearse(&xv15, &start, pilot("sideways", &xv15), 400 * TICKS_PER_S, |now| {
+            let seen = now.outputs;
+            outside |= seen.validity;
+            if phases.last() != Some(&now.phase) {
+                phases.push(now.phase);
+            }
+            let along = seen.body_velocity_mps;
+            let speeds = [along.y, -along.y, -along.x];
+            let names = ["to the right", "to the left", "rearward"];
+            let Some(i) = names.iter().position(|name| *name == now.phase) else { return };
+            fastest_mps[i] = max(fastest_mps[i], speeds[i]);
+            let off_rad = seen.euler.heading_rad - start.heading_rad;
+            turned_rad = max(turned_rad, engine::math::wrap_angle(off_rad).abs());
+            height_off_m = max(height_off_m, (seen.height_above_ground_m - 10.0).abs());
+        })
+        .expect("a flight");
+    println!(
+        "{:.1?} kt, {:.2} deg, {height_off_m:.2} m, {outside}",
+        fastest_mps.map(|v| v / KNOT_MPS),
+        turned_rad / DEG
+    );
+    let wanted = [35.0, 35.0, 20.0];
+    for (fastest_mps, wanted_kt) in fastest_mps.into_iter().zip(wanted) {
+        assert!((fastest_mps / KNOT_MPS - wanted_kt).abs() < 2.0, "{fastest_mps} m/s");
+    }
+    assert!(turned_rad < 10.0 * DEG && height_off_m < 3.0, "{turned_rad} rad, {height_off_m} m");
+    assert_eq!(outside, Validity::empty(), "no moment beyond the model's validity");
+    assert_eq!(phases.last(), Some(&"landing"));
+    assert!(state.tick < 400 * TICKS_PER_S && end.velocity_mps.norm() < 0.2);
+}
+
+/// An engine stops, and it lands on the wheels no harder than the gear was designed for.
+#[test]
+fn an_engine_out_landing_is_no_harder_than_the_gears_design() {
+    let xv15 = xv15();
+    let cases = [(90.0, 60.0), (90.0, 80.0), (0.0, 160.0)];
+    let some = if cfg!(debug_assertions) { &cases[..1] } else { &cases[..] };
+    for &(nacelle_deg, speed_kt) in some {
+        let mut hands = pilot("land", &xv15);
+        hands.push(Box::new(Fails { at_s: 2.0, failures: Failures::ENGINE_RIGHT }));
+        let (mut sink_mps, mut touchdowns) = (0.0, 0);
+        let mut before: Option<(u64, f64)> = None;
+        let (state, end) =
+            rehearse(&xv15, &aloft(nacelle_deg, speed_kt), hands, 400 * TICKS_PER_S, |now| {
+                let wheels = now.state.plant.weight_on_wheels;
+                if let Some((was, sank_mps)) = before
+                    && was == 0
+                    && wheels == 1
+                {
+                    sink_mps = max(sink_mps, sank_mps);
+                    touchdowns += 1;
+                }
+                before = Some((wheels, now.outputs.velocity_mps.z));
+            })
+            .expect("a flight");
+        let from = format!("engine out at {nacelle_deg} deg and {speed_kt} kt");
+        println!("{from}: {sink_mps:.2} m/s, {touchdowns} touchdowns, {:.0} s", state.time_s());
+        assert!(touchdowns > 0 && state.tick < 400 * TICKS_PER_S, "{from}: it never landed");
+        assert!(sink_mps < SINK_MPS_DESIGN, "{from}: {sink_mps} m/s");
+        assert!(!end.validity.intersects(Validity::HULL | Validity::FROZEN), "{from}: a wreck");
+        assert!(end.velocity_mps.norm() < 0.5, "{from}: {:?}", end.velocity_mps);
+    }
+}
+
 /// A failure during a flight.
 struct Fails {
     at_s: f64,

@@ -38,6 +38,7 @@ pub fn hovering(rpm: f64, collective_rad: f64) -> Inputs {
         cyclic_forward_rad: 0.0,
         cyclic_outboard_rad: 0.0,
         hub_height_m: 1e9,
+        other_induced_mps: 0.0,
     }
 }
 

@@ -166,9 +166,9 @@ fn the_computer_of_a_trimmed_flight_is_at_rest() {
     for target in envelope() {
         let state = trimmed(&xv15, &target).state;
         let sensed = step::sensed(&state, &target.world);
-        let (next, commands) =
+        let (next, computer) =
             fcc::update(&xv15.fcc, &state.fcc, &state.cockpit, &sensed, &target.world);
-        let surfaces = actuators::settled(&xv15.actuators, &state.actuators, &commands);
+        let surfaces = actuators::settled(&xv15.actuators, &state.actuators, &computer.commands);
         let after = State { fcc: next, actuators: surfaces, ..state };
         for ((name, before), after) in
             state.number_names().iter().zip(numbers(&state)).zip(numbers(&after))

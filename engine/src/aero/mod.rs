@@ -1,5 +1,6 @@
 //! Aerodynamics of the airframe: one block per component, and one for the rotors' wake on them.
 
+pub mod fin_wake;
 pub mod fuselage;
 pub mod half_wing;
 pub mod horizontal_stabilizer;

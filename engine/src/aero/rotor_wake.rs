@@ -11,8 +11,8 @@
 //! Velocities are those of the component through the air: a downwash moves it along the thrust.
 //! Negative G is upwash at the tail.
 //! # Assumptions
-//! The wake reaches the tail at once. What the source adds at each fin is not at hand; its effect
-//! there is the sidewash factor of the fins.
+//! The wake reaches the tail at once. What the source adds at each fin is not at hand;
+//! [`fin_wake`](super::fin_wake) has an estimate of it.
 
 use serde::Deserialize;
 

@@ -3,9 +3,11 @@
 //! # Equations
 //! ```text
 //! β_V = atan2(V, U_W) + .1·p·b/2U      U_W = √(U² + W²), U at least 35 ft/s          [CR536 subsystem 6]
+//! β_F = atan2(v, u_w)                  of the centre of gravity: what does not turn
 //! K_V = K_βR(V, |β|)·(1 − ∂σ/∂β)(βm, δF, α, |β|)        rotors' and fuselage's sidewash
-//! CY = K_V·CY(β_V) + ΔCY(δr) up to Mach .2; above it the tables by Mach number and a·X_Kr·τr·δr
-//! CD = K_V·CD(β_V + K_r·τr·δr)         q = ½ρ·η_V·(U_W² + V²)
+//! CY = CY(β_V) − (1 − K_V)·CY(β_F) + ΔCY(δr) up to Mach .2; above it the tables by Mach number and
+//!   a·X_Kr·τr·δr
+//! CD = CD(β_V + K_r·τr·δr) − (1 − K_V)·CD(β_F + K_r·τr·δr)          q = ½ρ·η_V·(U_W² + V²)
 //! ```
 //! # Signs
 //! β from the right positive; CY pushes to the left, across the flow. Rudder: trailing edge right
@@ -15,13 +17,19 @@
 //! U_W changes sign over ±30° about the vertical, so that the tables' whole circle is flown: the source
 //! says how from ahead only. The source's η_V, over βm, α and V, is not at hand by itself: it is taken
 //! to be the horizontal stabiliser's. Its trim printouts say so: with it the fins' drag there is within
-//! 3 % of theirs, without it between .57 and 1.04 of it. No velocity from the rotors. β of the sidewash factors is the aircraft's.
+//! 3 % of theirs, without it between .57 and 1.04 of it. β of the sidewash factors is the aircraft's.
+//! The source multiplies CY(β_V) by K_V. In steady straight flight that is the same; but its factor, −.5
+//! to 1.5, is what rotors and fuselage do to the air that comes from the side. The fin that swings into
+//! that air with yaw and roll meets it undiminished: with K_V on the whole of β_V a yaw rate at 40 kt
+//! pushed the fin the way it went.
+//! The rotors' wake turns the flow at the fin in its own plane; U and W in β_V have it, q does not:
+//! η_V was measured in that wake. What of the wake comes from the side is K_βR's.
 
 use serde::Deserialize;
 
 use super::polar::{ByMach, Flap};
 use super::{LocalFlow, ahead, load_at};
-use crate::frames::{Load, Structural, Vec3};
+use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{atan2, max, ramp, sin_cos, sqrt, square};
 use crate::motion::Motion;
 use crate::pair::Pair;
@@ -69,6 +77,8 @@ pub struct Params {
     pub area_m2: f64,
     /// Reference point of the right fin.
     pub centre_m: Vec3<Structural>,
+    /// Of one fin, from its foot to its tip.
+    pub span_m: f64,
     /// CY over β and δr at Mach number .2 and below; odd, printed for negative β.
     pub side_force: Table2,
     /// CY above, rudder at 0; odd.
@@ -104,6 +114,8 @@ pub struct Inputs {
     pub motion: Motion,
     /// The flow that the whole aircraft meets.
     pub flow: LocalFlow,
+    /// Velocity through the rotor's wake.
+    pub wake_mps: Vec3<Body>,
     /// Mach number.
     pub mach: f64,
     /// Mean βm.
@@ -187,18 +199,42 @@ pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
     load(params, inputs, Common::new(params, inputs))
 }
 
+/// How the air passes a fin.
+struct Passing {
+    /// atan2(V, U_W).
+    flow_rad: f64,
+    /// U_W, below zero from astern.
+    along_mps: f64,
+    /// Of x and z to the flow in the plane of symmetry: ahead, or astern.
+    chord_s_per_m: f64,
+}
+
+impl Passing {
+    fn new(velocity: Vec3<Body>) -> Self {
+        let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
+        // Up to 60° it is 1: so much is known without the angle.
+        let straight = velocity.x > 0.0 && velocity.z.abs() < 1.66 * velocity.x;
+        let forward = if straight { 1.0 } else { ahead(atan2(velocity.z, velocity.x)) };
+        let along_mps = forward * in_plane_mps;
+        let way = if forward < 0.0 { -1.0 } else { 1.0 };
+        Self {
+            flow_rad: atan2(velocity.y, along_mps),
+            along_mps,
+            chord_s_per_m: way / max(in_plane_mps, 1e-3),
+        }
+    }
+}
+
 fn load(params: &Params, inputs: &Inputs, Common { factor, effect }: Common) -> Load {
     let arm = params.centre_m.from_cg(inputs.motion.cg_m);
-    let velocity = inputs.motion.velocity_at(arm);
-    let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
-    // Up to 60° it is 1: so much is known without the angle.
-    let straight = velocity.x > 0.0 && velocity.z.abs() < 1.66 * velocity.x;
-    let forward = if straight { 1.0 } else { ahead(atan2(velocity.z, velocity.x)) };
-    let along_mps = forward * in_plane_mps;
+    let own = inputs.motion.velocity_at(arm);
+    let velocity = own + inputs.wake_mps;
+    let Passing { flow_rad, chord_s_per_m, .. } = Passing::new(velocity);
+    let along_mps = Passing::new(own).along_mps;
+    let free_rad = Passing::new(inputs.motion.airspeed_mps).flow_rad;
 
-    let flow_rad = atan2(velocity.y, along_mps);
-    let speed_mps = max(velocity.x.abs(), params.sidewash_speed_mps_min);
-    let direction = if velocity.x < 0.0 { -1.0 } else { 1.0 };
+    let speed_mps = max(own.x.abs(), params.sidewash_speed_mps_min);
+    let direction = if own.x < 0.0 { -1.0 } else { 1.0 };
     let roll = inputs.motion.angular_rate_radps.x * params.wing_span_m / (2.0 * speed_mps);
     let beta = flow_rad - direction * params.sidewash_by_roll_rate * roll;
 
@@ -206,28 +242,32 @@ fn load(params: &Params, inputs: &Inputs, Common { factor, effect }: Common) -> 
     let slow_fin = params.slow_side_force(beta, 0.0);
     let slow_rudder = params.slow_side_force(beta, inputs.rudder_rad) - slow_fin;
     let fin = params.side_force_by_mach.odd_at(inputs.mach, beta, slow_fin);
+    let slow_free = params.slow_side_force(free_rad, 0.0);
+    let free_fin = params.side_force_by_mach.odd_at(inputs.mach, free_rad, slow_free);
     let fast_rudder = params.lift_slope_per_rad * effect * params.rudder_effect * inputs.rudder_rad;
     let (s, c) = sin_cos(flow_rad);
     let fast = ramp(inputs.mach, 0.2, 0.4) * max(0.0, c);
     let rudder = slow_rudder + fast * (fast_rudder - slow_rudder);
-    let side = factor * fin + rudder;
-    let with_rudder =
-        beta + (effect - params.rudder_loss * loss) * params.rudder_effect * inputs.rudder_rad;
-    let angle = with_rudder.abs();
-    let drag = factor * params.drag_by_mach.at(inputs.mach, angle, params.drag.at(angle));
+    let kept_off = 1.0 - factor;
+    let side = fin - kept_off * free_fin + rudder;
+    let rudder_turn_rad =
+        (effect - params.rudder_loss * loss) * params.rudder_effect * inputs.rudder_rad;
+    let drag_at = |beta_rad: f64| {
+        let angle = (beta_rad + rudder_turn_rad).abs();
+        params.drag_by_mach.at(inputs.mach, angle, params.drag.at(angle))
+    };
+    let drag = drag_at(beta) - kept_off * drag_at(free_rad);
 
     let pressure_area = 0.5
         * inputs.motion.density_kg_per_m3
         * inputs.pressure_ratio
-        * (square(along_mps) + square(velocity.y))
+        * (square(along_mps) + square(own.y))
         * params.area_m2;
     let chordwise_n = pressure_area * (side * s - drag * c);
-    // The way the chord lies in the plane of symmetry's flow: ahead, or astern.
-    let chord = (if forward < 0.0 { -1.0 } else { 1.0 }) / max(in_plane_mps, 1e-3);
     let force = Vec3::new(
-        chordwise_n * velocity.x * chord,
+        chordwise_n * velocity.x * chord_s_per_m,
         -pressure_area * (side * c + drag * s),
-        chordwise_n * velocity.z * chord,
+        chordwise_n * velocity.z * chord_s_per_m,
     );
     load_at(force, arm, 0.0)
 }

@@ -22,6 +22,7 @@
 use super::half_wing::{Inputs, Params};
 use crate::frames::{Body, Structural, Vec3};
 use crate::lanes::{self, LANES, Lanes};
+use crate::mast::TiltedMast;
 use crate::math::{PI, clamp, exp, max, min, sqrt, square};
 
 /// Stations over the chord.
@@ -29,13 +30,13 @@ pub(super) const CHORDWISE: usize = 4;
 /// Stations over the half span.
 const SPANWISE: usize = 8;
 /// Half the thickness of the wake's edge, parts of the radius.
-const EDGE_NORM: f64 = 0.05;
+pub(super) const EDGE_NORM: f64 = 0.05;
 /// f.
 const ON_THE_WAY: f64 = 1.3;
 /// k at a skew of 90°.
 const GRADIENT: f64 = 15.0 * PI / 32.0;
 /// Air that hardly moves down is carried away: it is taken to move at least so, part of U and m/s.
-const SLOWEST: (f64, f64) = (0.02, 0.03);
+pub(super) const SLOWEST: (f64, f64) = (0.02, 0.03);
 
 /// The part of a half wing that stands in the wake.
 #[derive(Clone, Copy, Debug)]
@@ -49,17 +50,17 @@ pub struct Footprint {
 }
 
 /// The wake's air on its way to the wing, longitudinally.
-struct Stream {
+pub(super) struct Stream {
     /// |U|.
     blown_mps: f64,
     /// W + f·v.
-    down_mps: f64,
+    pub down_mps: f64,
     /// f·v·k.
     gradient_mps: f64,
 }
 
 impl Stream {
-    fn new(blown_mps: f64, along_mps: f64, induced_mps: f64) -> Self {
+    pub fn new(blown_mps: f64, along_mps: f64, induced_mps: f64) -> Self {
         let through_mps = along_mps + induced_mps;
         let total_mps = sqrt(square(blown_mps) + square(through_mps));
         // χ counts up to 90°.
@@ -72,14 +73,14 @@ impl Stream {
     }
 
     /// x(p) at `down`, parts of R, where the wake has contracted to `radius`.
-    fn place(&self, p: Lanes, down: f64, radius: f64) -> Lanes {
+    pub fn place(&self, p: Lanes, down: f64, radius: f64) -> Lanes {
         let slowest_mps = SLOWEST.0 * self.blown_mps + SLOWEST.1;
         let down_mps = lanes::max(self.down_mps + self.gradient_mps * p, slowest_mps);
         radius * p + down * self.blown_mps / down_mps
     }
 
     /// The p of the least x.
-    fn foremost(&self, down: f64, radius: f64) -> f64 {
+    pub fn foremost(&self, down: f64, radius: f64) -> f64 {
         if self.gradient_mps > 1e-9 {
             let slope_mps = sqrt(down * self.blown_mps * self.gradient_mps / radius);
             clamp((slope_mps - self.down_mps) / self.gradient_mps, -1.0, 1.0)
@@ -106,7 +107,7 @@ pub(super) struct Row {
 
 /// The rows of a half wing.
 pub(super) fn rows(params: &Params, inputs: &Inputs) -> [Row; CHORDWISE] {
-    let (axis, forward) = axes(inputs);
+    let (axis, forward) = axes(&inputs.mast);
     let radius_m = inputs.rotor_radius_m;
     core::array::from_fn(|i| {
         let part = 1.0 - (i as f64 + 0.5) / CHORDWISE as f64;
@@ -114,35 +115,40 @@ pub(super) fn rows(params: &Params, inputs: &Inputs) -> [Row; CHORDWISE] {
         let point = Vec3::<Structural>::new(station_m, 0.0, params.centre_m.z);
         let from_hub = point.from_cg(inputs.motion.cg_m) - inputs.hub_from_cg_m;
         let down = -from_hub.dot(axis) / radius_m;
-        let radius = if down <= 0.0 { 1.0 } else { 0.707 / sqrt(0.5 * (2.0 - exp(-1.197 * down))) };
+        let radius = if down <= 0.0 { 1.0 } else { contracted(down) };
         Row { station_m, ahead: from_hub.dot(forward) / radius_m, down, radius }
     })
 }
 
+/// r/R.
+pub(super) fn contracted(down: f64) -> f64 {
+    0.707 / sqrt(0.5 * (2.0 - exp(-1.197 * down)))
+}
+
 /// Along the mast and forward in the disc's plane, its cant aside.
-fn axes(inputs: &Inputs) -> (Vec3<Body>, Vec3<Body>) {
-    let (s, c) = (inputs.mast.sin_tilt, inputs.mast.cos_tilt);
+pub(super) fn axes(mast: &TiltedMast) -> (Vec3<Body>, Vec3<Body>) {
+    let (s, c) = (mast.sin_tilt, mast.cos_tilt);
     (Vec3::new(s, 0.0, -c), Vec3::new(c, 0.0, s))
 }
 
 /// The wake as it passes a row. Lengths are parts of R.
-struct Passing<'a> {
-    stream: &'a Stream,
+pub(super) struct Passing<'a> {
+    pub stream: &'a Stream,
     /// Of the stations, downwind of the hub.
-    x: f64,
+    pub x: f64,
     /// Down the wake.
-    down: f64,
+    pub down: f64,
     /// To which the wake has contracted.
-    radius: f64,
+    pub radius: f64,
     /// The p of the least x(p).
-    foremost: f64,
-    /// How far the wake has shifted to the right.
-    aside: f64,
+    pub foremost: f64,
+    /// How far the wake has shifted to the left.
+    pub aside: f64,
 }
 
 impl Passing<'_> {
     /// Whether no part of the wake comes near, edge and rounding included.
-    fn is_elsewhere(&self) -> bool {
+    pub fn is_elsewhere(&self) -> bool {
         let ends = Lanes::from([self.foremost, -1.0, 0.0, 0.0]);
         let [foremost, upwind, ..] = self.stream.place(ends, self.down, self.radius).to_array();
         // The least x(p) is where its slope is 0, or upwind where air that hardly moves is carried
@@ -155,7 +161,7 @@ impl Passing<'_> {
     }
 
     /// How far into the wake the stations are that lie `y` to the right of the hub: 0 out, 1 in.
-    fn covered(&self, y: Lanes) -> Lanes {
+    pub fn covered(&self, y: Lanes) -> Lanes {
         let place = |p: Lanes| self.stream.place(p, self.down, self.radius);
         let eta = (y + self.aside) / self.radius;
         let p = lanes::sqrt(lanes::max(0.0, 1.0 - lanes::square(eta)));
@@ -178,7 +184,7 @@ pub(super) fn footprint_of_rows(
     inputs: &Inputs,
     rows: &[Row; CHORDWISE],
 ) -> Footprint {
-    let (axis, forward) = axes(inputs);
+    let (axis, forward) = axes(&inputs.mast);
     let hub = inputs.hub_from_cg_m;
     let velocity = inputs.motion.velocity_at(hub);
     let (along_mps, ahead_mps) = (velocity.dot(axis), velocity.dot(forward));

@@ -48,23 +48,32 @@ pub struct State {
     pub governor: governor::State,
 }
 
-/// One tick of the computer: the state after it, and what it asks of the actuators.
+/// What the computer gives.
+#[derive(Clone, Copy, Debug)]
+pub struct Outputs {
+    /// What it asks of the actuators.
+    pub commands: Commands,
+    /// What the SCAS adds to the sticks.
+    pub scas: scas::Outputs,
+}
+
+/// One tick of the computer: the state after it, and what it gives.
 pub fn update(
     params: &Params,
     state: &State,
     pilot: &PilotControls,
     sensed: &Sensed,
     world: &World,
-) -> (State, Commands) {
+) -> (State, Outputs) {
     let (sticks, on) = (sticks(params, pilot), axes_on(pilot, world));
-    let (scas, augmented) = scas::update(&params.scas, &state.scas, &sticks, on, sensed);
+    let (scas, augmented, added) = scas::update(&params.scas, &state.scas, &sticks, on, sensed);
     let (governor, collective_rad) = governor::update(
         &params.governor,
         &state.governor,
         &to_governor(params, pilot, sensed, world),
     );
     let commands = mixer::mix(&params.mixer, &augmented, collective_rad, pilot, sensed);
-    (State { scas, governor }, commands)
+    (State { scas, governor }, Outputs { commands, scas: added })
 }
 
 /// The computer at rest with the pilot's controls where they are: what it remembers once the SCAS is
@@ -82,7 +91,8 @@ pub fn settled(
 ) -> (State, Commands) {
     let sticks = sticks(params, pilot);
     let scas = scas::settled(&sticks, sensed);
-    let (_, augmented) = scas::update(&params.scas, &scas, &sticks, axes_on(pilot, world), sensed);
+    let (_, augmented, _) =
+        scas::update(&params.scas, &scas, &sticks, axes_on(pilot, world), sensed);
     let to_governor = to_governor(params, pilot, sensed, world);
     let governor = governor::settled(&params.governor, &to_governor, collective_rad);
     let commands = mixer::mix(&params.mixer, &augmented, collective_rad, pilot, sensed);
@@ -95,6 +105,7 @@ fn sticks(params: &Params, pilot: &PilotControls) -> scas::Sticks {
         aft_m: pilot.stick_aft_norm * params.travel.longitudinal_stick_m,
         right_m: pilot.stick_right_norm * params.travel.lateral_stick_m,
         pedal_right_m: pilot.pedal_right_norm * params.travel.pedal_m,
+        rest_aft_m: pilot.force_trim.stick_aft_norm * params.travel.longitudinal_stick_m,
     }
 }
 

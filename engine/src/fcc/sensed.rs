@@ -17,6 +17,8 @@ pub struct Sensed {
     pub rotor_speed_radps: f64,
     /// βm, mean of both nacelles.
     pub mast_tilt_rad: f64,
+    /// How fast both tilt, mean.
+    pub mast_tilt_rate_radps: f64,
     /// Whether a main wheel bears weight.
     pub weight_on_wheels: bool,
 }

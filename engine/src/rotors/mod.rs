@@ -5,9 +5,10 @@
 //! elements:  forces and flapping moments from pitch, flap, inflow and the hub's motion
 //! inflow:    v̇ from thrust and flapping moments              three states         [PETERS]
 //! flapping:  β̈ from flapping moments, springs and gyration   gimbal and coning    [JOHNSON]
+//! neighbour: the other rotor's wake adds to the flow along the mast                 [CR536]
 //! ```
-//! Each in its file: [`section`], [`blade`], [`elements`], [`inflow`], [`flapping`]. The elements are
-//! evaluated once a tick; inflow and flapping take the tick implicitly, because the flapping's fast
+//! Each in its file: [`section`], [`blade`], [`elements`], [`inflow`], [`flapping`], [`other_rotor`]. The
+//! elements are evaluated once a tick; inflow and flapping take the tick implicitly, because the flapping's fast
 //! root (2Ω, 123 rad/s) is too fast for the rates of the plant. So the block gives its next state.
 //! ```text
 //! F = (Σ in the hub plane, −T)     M = K·tilt by gimbal and stop, Q about the mast
@@ -17,14 +18,14 @@
 //! and forward. Written for the right rotor, which turns counter-clockwise seen from above; the left
 //! one is its mirror image.
 //! # Assumptions
-//! Steady between ticks; rigid in lag and torsion; no wake of one rotor on the other; the in-plane
-//! inertia of flapping blades averages out. A gimballed rotor does not pass its gyroscopic moment on:
+//! Steady between ticks; rigid in lag and torsion; the in-plane inertia of flapping blades averages out. A gimballed rotor does not pass its gyroscopic moment on:
 //! it precesses until the air turns it.
 
 pub mod blade;
 pub mod elements;
 pub mod flapping;
 pub mod inflow;
+pub mod other_rotor;
 pub mod section;
 #[cfg(test)]
 mod tests;
@@ -58,6 +59,8 @@ pub struct Params {
     pub inflow: inflow::Params,
     /// Hub and flapping.
     pub flapping: flapping::Params,
+    /// What the other rotor's wake does.
+    pub other_rotor: other_rotor::Params,
 }
 
 impl Params {
@@ -112,6 +115,8 @@ pub struct Inputs {
     pub cyclic_outboard_rad: f64,
     /// Hub over the ground.
     pub hub_height_m: f64,
+    /// v0 of the other rotor.
+    pub other_induced_mps: f64,
 }
 
 /// What a rotor gives.
@@ -125,7 +130,8 @@ pub struct Outputs {
     pub torque_n_m: f64,
     /// Q·Ω.
     pub power_w: f64,
-    /// Mean induced velocity as the airframe meets it, against the thrust axis positive.
+    /// Mean induced velocity as the airframe meets it, the other rotor's at this one with it, against the
+    /// thrust axis positive.
     pub induced_mps: f64,
     /// C_T = T/(ρA(ΩR)²); 0 at rest.
     pub thrust_coefficient: f64,
@@ -189,7 +195,7 @@ pub fn evaluate(
     inputs: &Inputs,
 ) -> (State, Outputs) {
     let hub = Hub::new(params, inputs);
-    let flow = elements::Flow {
+    let free = elements::Flow {
         omega_radps: inputs.rotor_speed_radps - hub.rate_radps.z,
         forward_mps: hub.velocity_mps.x,
         right_mps: hub.velocity_mps.y,
@@ -197,6 +203,10 @@ pub fn evaluate(
         density_kg_per_m3: inputs.motion.density_kg_per_m3,
         sound_speed_mps: inputs.sound_speed_mps,
     };
+    let spacing_m = 2.0 * hub.arm_m.y;
+    let of_other = other_rotor::factor(&params.other_rotor, &free, spacing_m, params.radius_m);
+    let flow =
+        elements::Flow { along_mps: free.along_mps + of_other * inputs.other_induced_mps, ..free };
     let flap = &state.flapping;
     let gimbal = flapping::gimbal(&params.flapping, flap);
     let pitch = elements::Pitch {
@@ -219,7 +229,7 @@ pub fn evaluate(
 
     let next = advance(params, state, &hub, &flow, &passage, &gimbal, &sums);
     let wake = Wake {
-        induced_mps: ground.wake * state.inflow.mean_mps,
+        induced_mps: ground.wake * (state.inflow.mean_mps + of_other * inputs.other_induced_mps),
         in_vortex_ring: passage.in_vortex_ring,
     };
     (next, outputs(params, state, inputs, &hub, &gimbal, &sums, &wake))

@@ -55,6 +55,10 @@ fn ideal() -> Params {
             flapping_rad_max: 0.2,
             delta3_rad: 0.0,
         },
+        other_rotor: other_rotor::Params {
+            downwind: Table1 { x: vec![0.0, 0.1, 0.2], y: vec![0.0, 0.8, 0.4] },
+            abreast: Table1 { x: vec![0.0, 0.1, 0.2], y: vec![0.0, -0.05, -0.1] },
+        },
     }
 }
 
@@ -74,6 +78,7 @@ fn hovering(collective_rad: f64) -> Inputs {
         cyclic_forward_rad: 0.0,
         cyclic_outboard_rad: 0.0,
         hub_height_m: 1e9,
+        other_induced_mps: 0.0,
     }
 }
 
@@ -348,6 +353,7 @@ fn no_flight_makes_it_infinite() {
             cyclic_forward_rad: r(0.18),
             cyclic_outboard_rad: r(0.1),
             hub_height_m: 20.0 + r(20.0),
+            other_induced_mps: r(20.0),
         };
         for _ in 0..125 {
             let (next, out) = evaluate(&params, &blade, &state, &inputs);

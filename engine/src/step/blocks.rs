@@ -4,8 +4,8 @@
 //! their loads, and what it does to the body.
 
 use crate::aero::{
-    LocalFlow, fuselage, horizontal_stabilizer, local_flow, rotor_wake, vertical_stabilizers,
-    wing_pylon,
+    LocalFlow, fin_wake, fuselage, horizontal_stabilizer, local_flow, rotor_wake,
+    vertical_stabilizers, wing_pylon,
 };
 use crate::frames::{Body, Load, Ned, Rotation, Vec3};
 use crate::inputs::World;
@@ -222,7 +222,9 @@ impl SideInputs {
 
 fn rotors_and_drive(now: Situation<'_>, body: &MassAndMotion) -> RotorsAndDrive {
     let Situation { aircraft, plant, surfaces, world, air } = now;
-    let from_rotors = plant.rotors.zip(body.sides).map(|(rotor, side)| {
+    let others = plant.rotors.swapped().map(|other| other.inflow.mean_mps);
+    let sides = body.sides.zip(others);
+    let from_rotors = plant.rotors.zip(sides).map(|(rotor, (side, other_induced_mps))| {
         let inputs = rotors::Inputs {
             motion: side.motion,
             sound_speed_mps: air.sound_speed_mps,
@@ -233,6 +235,7 @@ fn rotors_and_drive(now: Situation<'_>, body: &MassAndMotion) -> RotorsAndDrive 
             cyclic_forward_rad: side.cyclic_forward_rad,
             cyclic_outboard_rad: side.cyclic_outboard_rad,
             hub_height_m: side.hub_height_m,
+            other_induced_mps,
         };
         rotors::evaluate(&aircraft.rotors, &aircraft.blade, &rotor, &inputs)
     });
@@ -305,7 +308,7 @@ fn airframe(now: Situation<'_>, body: &MassAndMotion, rotors: &Pair<rotors::Outp
         ),
         horizontal_stabilizer,
         horizontal_stabilizer_rate,
-        vertical_stabilizers: fins(now, body, pressure_ratio),
+        vertical_stabilizers: fins(now, body, rotors, pressure_ratio),
     }
 }
 
@@ -360,19 +363,34 @@ fn half_wings(
     wing_pylon::evaluate_both(&aircraft.wing_pylon, inputs).map(|half| half.total())
 }
 
-/// Both fins, each as a right one.
-fn fins(now: Situation<'_>, body: &MassAndMotion, pressure_ratio: f64) -> Pair<Load> {
+/// Both fins, each as a right one, each in its rotor's wake.
+fn fins(
+    now: Situation<'_>,
+    body: &MassAndMotion,
+    rotors: &Pair<rotors::Outputs>,
+    pressure_ratio: f64,
+) -> Pair<Load> {
     let Situation { aircraft, surfaces, .. } = now;
-    let inputs = body.sides.map(|side| vertical_stabilizers::Inputs {
+    let params = &aircraft.vertical_stabilizers;
+    let inputs = body.sides.zip(*rotors).map(|(side, rotor)| vertical_stabilizers::Inputs {
         motion: side.motion,
         flow: side.flow,
+        wake_mps: fin_wake::evaluate(&fin_wake::Inputs {
+            motion: side.motion,
+            mast: side.mast,
+            hub_from_cg_m: side.hub_from_cg_m,
+            induced_mps: rotor.induced_mps,
+            rotor_radius_m: aircraft.rotors.radius_m,
+            centre_m: params.centre_m,
+            span_m: params.span_m,
+        }),
         mach: body.mach,
         mast_tilt_rad: surfaces.mast_tilt_rad.mean(),
         flap_rad: surfaces.flap_rad,
         pressure_ratio,
         rudder_rad: side.rudder_outboard_rad,
     });
-    vertical_stabilizers::evaluate_both(&aircraft.vertical_stabilizers, inputs)
+    vertical_stabilizers::evaluate_both(params, inputs)
 }
 
 /// Every load on the airframe, both sides as they are.

@@ -1,18 +1,17 @@
 //! What can be observed after a tick.
 
 use super::blocks::Blocks;
-use crate::Aircraft;
-use crate::controls::Commands;
 use crate::math::{atan2, min, sqrt, square};
 use crate::outputs::{EulerRate, Outputs, Validity, calibrated_airspeed, place};
 use crate::state::State;
+use crate::{Aircraft, fcc};
 
 /// What can be observed of `next`, the state after the tick; loads are those that led to it.
 pub(super) fn outputs(
     aircraft: &Aircraft,
     blocks: &Blocks,
     next: &State,
-    commands: &Commands,
+    computer: &fcc::Outputs,
 ) -> Outputs {
     let Blocks { air, motion, balance, rotors, engines, gear, loads, total, .. } = blocks;
     let plant = &next.plant;
@@ -48,7 +47,8 @@ pub(super) fn outputs(
         balance: *balance,
         fuel_kg: plant.fuel_kg,
         cockpit: next.cockpit,
-        commands: *commands,
+        commands: computer.commands,
+        scas: computer.scas,
         actuators: next.actuators,
         rotor_speed_radps: plant.rotor_speed_radps,
         rotor_azimuth_rad: plant.rotor_azimuth_rad,

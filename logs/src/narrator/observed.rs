@@ -1,6 +1,7 @@
 //! What the narrator looks at after every tick.
 
 use engine::Outputs;
+use engine::fcc::scas::Saturation;
 use engine::outputs::Validity;
 
 /// What is looked at after every tick.
@@ -8,6 +9,8 @@ use engine::outputs::Validity;
 pub struct Observed {
     /// Where the answer is not to be trusted.
     pub validity: Validity,
+    /// What of the SCAS is at its limit.
+    pub saturated: Saturation,
     /// Downwards.
     pub sink_mps: f64,
     /// Over the ground, level.
@@ -23,6 +26,7 @@ impl Observed {
         let push_n = legs.nose.push_n + legs.main.map(|leg| leg.push_n).sum();
         Self {
             validity: outputs.validity,
+            saturated: outputs.scas.saturated,
             sink_mps: v.z,
             ground_speed_mps: engine::math::sqrt(v.x * v.x + v.y * v.y),
             on_ground: push_n > 0.0,

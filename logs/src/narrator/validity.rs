@@ -1,50 +1,29 @@
-//! Where the model's validity was left and entered again, flag by flag, without chatter.
-//!
-//! A flag that comes and goes, as one at its limit does, is told once when it comes and once when it
-//! has stayed away for a second. The recorded bits are what they are.
+//! Where the model's validity was left and entered again, flag by flag.
 
 use engine::outputs::Validity;
-use engine::{STEP_NS, STEP_S};
 
-/// A flag that has been away for this long is gone.
-const QUIET_TICKS: u64 = 1_000_000_000 / STEP_NS;
+use super::chatter::Chatter;
 
 /// The flags as told.
 #[derive(Default)]
 pub(super) struct Told {
     /// Those that were told to be set.
     pub(super) flags: Validity,
-    /// Of each flag that is told: when it came, and when it was last there.
-    ticks: [(u64, u64); Validity::FACTS.len()],
+    chatter: Chatter<{ Validity::FACTS.len() }>,
 }
 
 impl Told {
     /// What is to be told of the flags after a tick, in words.
     pub(super) fn look(&mut self, tick: u64, now: Validity) -> Option<String> {
-        let (mut left, mut back) = (Vec::new(), Vec::new());
-        for (facts, ticks) in Validity::FACTS.iter().zip(&mut self.ticks) {
-            let told = self.flags.contains(facts.flag);
-            if now.contains(facts.flag) {
-                if !told {
-                    left.push(facts.words.to_string());
-                    self.flags |= facts.flag;
-                    ticks.0 = tick;
-                }
-                ticks.1 = tick;
-            } else if told && tick >= ticks.1 + QUIET_TICKS {
-                let for_s = (ticks.1 + 1 - ticks.0) as f64 * STEP_S;
-                let until_s = (ticks.1 + 1) as f64 * STEP_S;
-                back.push(format!("{} (for {for_s:.3} s, until {until_s:.3} s)", facts.words));
-                self.flags -= facts.flag;
-            }
+        let set = std::array::from_fn(|i| {
+            let facts = &Validity::FACTS[i];
+            (facts.words, now.contains(facts.flag))
+        });
+        let news = self.chatter.look(tick, set);
+        for (i, facts) in Validity::FACTS.iter().enumerate() {
+            self.flags.set(facts.flag, self.chatter.told(i));
         }
-        let told = [("outside the model's validity: ", left), ("within it again: ", back)];
-        let words: Vec<String> = told
-            .into_iter()
-            .filter(|(_, flags)| !flags.is_empty())
-            .map(|(what, flags)| format!("{what}{}", flags.join(", ")))
-            .collect();
-        (!words.is_empty()).then(|| words.join("; "))
+        news.words("outside the model's validity: ", "within it again: ")
     }
 }
 

@@ -13,6 +13,7 @@ use engine::cockpit::{self, AxisControl};
 use engine::envelope::Corridor;
 use engine::frames::{Ned, Vec3};
 use engine::outputs::Validity;
+use engine::units::KNOT_MPS;
 use engine::{Outputs, STEP_S};
 
 pub use device::{DEVICE, VirtualDevice};
@@ -23,7 +24,7 @@ use sweep::{Axis, Steady};
 use crate::hands::{GaveUp, Hands, Reach};
 
 /// Names of the pilot models, each with what it flies.
-pub const PILOTS: [(&str, &str); 11] = [
+pub const PILOTS: [(&str, &str); 12] = [
     ("hover", "lifts off, hovers at 10 m and keeps hovering"),
     ("demo", "vertical take-off, conversion, left turn, reconversion, landing where it began"),
     ("takeoff", "lifts off, accelerates as a helicopter to 80 kt and flies on"),
@@ -31,6 +32,10 @@ pub const PILOTS: [(&str, &str); 11] = [
     ("turn", "the same, then turns left on and on"),
     ("reconvert", "begins as an aeroplane (or becomes one), reconverts, hovers"),
     ("land", "comes to a hover from whatever it begins in, and lands"),
+    (
+        "sideways",
+        "flies to the right and to the left at 35 kt and rearward at 20 kt, hovers, lands",
+    ),
     ("sweep-pitch", "sweeps the stick to and fro, three times from .2 to 15 rad/s, for `identify`"),
     ("sweep-roll", "the same from side to side"),
     ("sweep-yaw", "the same with the pedals"),
@@ -39,7 +44,7 @@ pub const PILOTS: [(&str, &str); 11] = [
 
 /// Whether the pilot model of that name ends its flight by itself.
 pub fn lands(name: &str) -> bool {
-    matches!(name, "demo" | "land") || Axis::of(name).is_some()
+    matches!(name, "demo" | "land" | "sideways") || Axis::of(name).is_some()
 }
 
 /// Higher than this it has flown, m.
@@ -78,6 +83,29 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
             plan.push(("landing", Phase::Land));
         }
         "land" => plan.extend([descend, ("landing", Phase::Land)]),
+        "sideways" => {
+            if on_wheels {
+                plan.truncate(2);
+            } else {
+                plan.push(stop);
+            }
+            let sidle = |knots: f64, back: bool, seconds: f64| {
+                let mps = knots * KNOT_MPS;
+                let (forward_mps, right_mps) = if back { (-mps, 0.0) } else { (0.0, mps) };
+                Phase::Sidle { forward_mps, right_mps, seconds }
+            };
+            let still = ("to a hover", sidle(0.0, false, 28.0));
+            plan.extend([
+                ("to the right", sidle(35.0, false, 40.0)),
+                still,
+                ("to the left", sidle(-35.0, false, 40.0)),
+                still,
+                ("rearward", sidle(20.0, true, 30.0)),
+                still,
+                ("hover", Phase::Hold { seconds: 3.0 }),
+                ("landing", Phase::Land),
+            ]);
+        }
         "demo" => {
             if on_wheels {
                 let hover = ("hover", Phase::Hold { seconds: 3.0 });
@@ -126,6 +154,8 @@ pub struct Pilot {
     touched_tick: Option<u64>,
     /// It has been in the air.
     flown: bool,
+    /// Its plan ends on the ground.
+    lands: bool,
     /// Why its task cannot be flown to the end.
     failed: Option<GaveUp>,
     /// The thumb on the nacelle switch: −1 forward, 0 off it, 1 aft.
@@ -153,6 +183,7 @@ impl Pilot {
             started: false,
             touched_tick: None,
             flown: false,
+            lands: lands(name),
             failed: None,
             thumb: 0,
             handle_tick: 0,
@@ -237,6 +268,11 @@ impl Hands for Pilot {
         self.device.set(reach, AxisControl::StickRight, to.stick_right_norm);
         self.device.set(reach, AxisControl::PedalRight, to.pedal_right_norm);
         self.device.set(reach, AxisControl::Collective, to.lever_norm);
+        if self.order.run_on {
+            let brake_norm = self.brake(seen);
+            self.device.set(reach, AxisControl::BrakeLeft, brake_norm);
+            self.device.set(reach, AxisControl::BrakeRight, brake_norm);
+        }
         if self.steady.is_none() {
             self.switches(seen, reach);
         }

@@ -38,6 +38,8 @@ pub enum Phase {
     Stop { height_m: Option<f64> },
     /// Turns over a spot to the heading of the start.
     FaceStart,
+    /// Flies to any side with the nose where it points, as a helicopter.
+    Sidle { forward_mps: f64, right_mps: f64, seconds: f64 },
     /// Descends onto the wheels and lowers the lever.
     Land,
     /// Keeps the flight that it finds, the hands at the controls' positions.
@@ -54,6 +56,7 @@ impl Phase {
             Self::Wait { .. }
             | Self::Hold { .. }
             | Self::Circle { .. }
+            | Self::Sidle { .. }
             | Self::Steady { .. }
             | Self::Sweep { .. } => f64::INFINITY,
             Self::Stop { .. } | Self::Approach { .. } => 300.0,
@@ -85,8 +88,12 @@ pub struct Order {
     bank_rad_max: f64,
     nacelles: Nacelles,
     gear_down: bool,
+    /// It lands with speed, because one engine does not let it hover.
+    pub run_on: bool,
     /// Where it hovers.
     spot_m: Option<Vec3<Ned>>,
+    /// Forward and to the right, on the way to what a phase of sidling wants.
+    sidle_mps: [f64; 2],
     start_m: Vec3<Ned>,
     start_heading_rad: f64,
     /// Calibrated airspeed as the pilot reads it, m/s.
@@ -126,6 +133,14 @@ const ROTORS_OFF_MAX: f64 = 0.05;
 const END_RAD: f64 = 0.003;
 /// Deceleration of an approach, m/s².
 const APPROACH_MPS2: f64 = 1.4;
+/// Over the ground where one engine does not let it hover, m/s: 35 kt.
+const RUN_ON_MPS: f64 = 35.0 * KNOT_MPS;
+/// Part of an engine's power that the other one is left with when it is out.
+const OUT_NORM: f64 = 0.1;
+/// How hard it brakes after a landing with speed.
+const BRAKE_NORM: f64 = 0.4;
+/// How fast it picks up speed to the side or back, m/s².
+const SIDLE_MPS2: f64 = 1.0;
 /// Slowest descent from high up, m/s.
 const DESCENT_MPS: f64 = 28.0;
 /// How fast the lever goes down after touchdown, 1/s.
@@ -160,6 +175,15 @@ impl Pilot {
                 since_s >= seconds
             }
             Phase::Sweep { .. } => since_s >= sweep::length_s(),
+            Phase::Sidle { forward_mps, right_mps, seconds } => {
+                let step_mps = SIDLE_MPS2 * HAND_S;
+                for (now, wanted) in order.sidle_mps.iter_mut().zip([forward_mps, right_mps]) {
+                    *now += clamp(wanted - *now, -step_mps, step_mps);
+                }
+                order.forward_mps = 0.0;
+                order.spot_m = None;
+                since_s >= seconds
+            }
             Phase::Rise { height_m: to_m, climb_mps } => {
                 order.climb_mps_max = climb_mps;
                 order.height_m = to_m;
@@ -252,17 +276,30 @@ impl Pilot {
     fn stop(&mut self, seen: &Outputs, height_m: Option<f64>) -> bool {
         let height_m = height_m.unwrap_or(self.order.height_m);
         let high_m = seen.height_above_ground_m - height_m;
+        let run_on = self.lands && one_engine_is_out(seen);
+        self.order.run_on = run_on;
         // Out of its own wake an aircraft that flies may sink twice as fast as one that hovers.
-        let least_mps = if high_m > 40.0 { DESCENT_MPS } else { 0.0 };
+        let least_mps = if high_m > 40.0 {
+            DESCENT_MPS
+        } else if run_on {
+            RUN_ON_MPS
+        } else {
+            0.0
+        };
         let slow_mps = max(least_mps, self.order.forward_mps - APPROACH_MPS2 * HAND_S);
         self.slow_down(seen, slow_mps);
+        if run_on && self.order.forward_mps < RUN_ON_MPS + 0.1 {
+            // It slows down no further.
+            self.order.forward_mps2 = 0.0;
+        }
         if self.is_helicopter(seen) {
             if high_m > 40.0 && seen.airspeed_mps > 0.8 * DESCENT_MPS {
                 self.order.sink_mps_max = 5.0;
             }
             self.order.height_m = min(self.order.height_m, height_m);
         }
-        seen.velocity_mps.norm() < 1.0
+        let slow_enough_mps = if run_on { RUN_ON_MPS + 3.0 } else { 1.0 };
+        seen.velocity_mps.norm() < slow_enough_mps
             && (seen.height_above_ground_m - height_m).abs() < 1.5
             && self.is_helicopter(seen)
     }
@@ -310,6 +347,19 @@ impl Pilot {
             let off_m = order.height_m - seen.height_above_ground_m;
             clamp(gain_per_s * off_m, -order.sink_mps_max, order.climb_mps_max)
         };
+        if matches!(phase, Phase::Sidle { .. }) {
+            let [forward_mps, right_mps] = order.sidle_mps;
+            return Aim {
+                forward_mps,
+                right_mps,
+                any_way: true,
+                over_ground: true,
+                forward_mps2_max: order.forward_mps2_max,
+                climb_mps,
+                heading_rad: order.heading_rad,
+                ..Aim::default()
+            };
+        }
         let slow = seen.velocity_mps.norm() < 4.0;
         let hovering = order.spot_m.is_some() || (order.forward_mps == 0.0 && slow);
         let (mut forward_mps, mut right_mps) = (order.forward_mps, 0.0);
@@ -334,6 +384,7 @@ impl Pilot {
             forward_mps,
             over_ground: order.over_ground,
             right_mps,
+            any_way: false,
             forward_mps2: if hovering { 0.0 } else { order.forward_mps2 },
             forward_mps2_max: order.forward_mps2_max,
             climb_mps,
@@ -355,6 +406,12 @@ impl Pilot {
         }
         let aim = self.aim(phase, seen);
         self.skill.fly(seen, &aim)
+    }
+
+    /// Toes on the brakes while it rolls out of a landing with speed.
+    pub(super) fn brake(&self, seen: &Outputs) -> f64 {
+        let rolls = self.touched_tick.is_some() && seen.velocity_mps.norm() > ROLLING_MPS;
+        if rolls { BRAKE_NORM } else { 0.0 }
     }
 
     /// Thumb switches and handles: nacelles, rotor speed, flaps, gear.
@@ -416,6 +473,13 @@ impl Pilot {
             self.handle_tick = reach.tick;
         }
     }
+}
+
+/// Whether the gauges show that one of the engines gives nothing while the other one does.
+fn one_engine_is_out(seen: &Outputs) -> bool {
+    let power_w = seen.engines.power_w;
+    let more_w = max(power_w.left, power_w.right);
+    min(power_w.left, power_w.right) < OUT_NORM * more_w && more_w > 0.2 * seen.engines.available_w
 }
 
 /// 40 as a helicopter, 20 in conversion and as a slow aeroplane, 0 as a fast one.

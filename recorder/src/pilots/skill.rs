@@ -32,6 +32,8 @@ pub struct Aim {
     pub over_ground: bool,
     /// To the right over the ground, when slow.
     pub right_mps: f64,
+    /// Flown as over a spot however fast it goes to the side or back.
+    pub any_way: bool,
     /// What that speed is to change by anyway.
     pub forward_mps2: f64,
     /// Greatest acceleration along the nose.
@@ -163,7 +165,7 @@ impl Skill {
     pub fn fly(&mut self, seen: &Outputs, aim: &Aim) -> Positions {
         let eyes = Eyes::look(seen);
         // Below 30 kt it is a helicopter over a spot, above 50 kt something that flies.
-        let flying = ramp(seen.airspeed_mps, 15.0, 26.0);
+        let flying = if aim.any_way { 0.0 } else { ramp(seen.airspeed_mps, 15.0, 26.0) };
         let (pitch_rad, lever_norm) = self.pitch_and_lever(seen, &eyes, aim, flying);
         let roll_rad = self.roll(seen, &eyes, aim, flying);
         let on_wheels = eyes.on_wheels_norm > 0.1;

@@ -6,7 +6,7 @@ use core::ops::{Index, IndexMut};
 use engine::controls::PilotControls;
 use engine::frames::{Attitude, Body, Euler, Ned, Vec3};
 use engine::inputs::Failures;
-use engine::math::{asin, atan2, clamp, cos, max, sin, sqrt, square};
+use engine::math::{FRAC_PI_2, PI, asin, atan2, clamp, cos, max, sin, sqrt, square};
 use engine::pair::Pair;
 use engine::{Aircraft, GRAVITY_MPS2, STEP_S, State, actuators, cockpit, engines, fcc, step};
 
@@ -254,6 +254,7 @@ impl<'a> Problem<'a> {
             level_mps,
             -climb_mps,
             target.airspeed_mps * sin(target.sideslip_rad),
+            target.sideslip_rad.abs() > FRAC_PI_2,
         );
         let track_rad = target.heading_rad - off_track_rad;
         let through_air =
@@ -340,13 +341,15 @@ fn turning(turn_radps: f64, pitch_rad: f64, roll_rad: f64) -> Vec3<Body> {
     )
 }
 
-/// ψ less the track's direction, so that the air comes from the right with `from_right_mps`.
+/// ψ less the track's direction, so that the air comes from the right with `from_right_mps`, and from
+/// ahead unless it comes from behind.
 fn heading_off_track(
     pitch_rad: f64,
     roll_rad: f64,
     level_mps: f64,
     down_mps: f64,
     from_right_mps: f64,
+    from_behind: bool,
 ) -> f64 {
     // v = a·cos ψ − b·sin ψ + c
     let a = level_mps * sin(roll_rad) * sin(pitch_rad);
@@ -356,5 +359,6 @@ fn heading_off_track(
     if length < 1e-9 {
         return 0.0;
     }
-    atan2(a, b) - asin((from_right_mps - c) / length)
+    let from_ahead_rad = asin((from_right_mps - c) / length);
+    atan2(a, b) - if from_behind { PI - from_ahead_rad } else { from_ahead_rad }
 }

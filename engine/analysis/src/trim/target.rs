@@ -15,7 +15,7 @@ pub struct Target {
     pub power: Power,
     /// ψ̇, to the right positive.
     pub turn_radps: f64,
-    /// β.
+    /// β; beyond ±90° the air comes from behind: 180° is rearward flight.
     pub sideslip_rad: f64,
     /// Where the nose points.
     pub heading_rad: f64,
