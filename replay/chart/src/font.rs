@@ -107,7 +107,8 @@ mod tests {
     fn both_weights_have_every_sign_that_figures_use() {
         for weight in [Weight::Regular, Weight::Bold] {
             let face = face(weight).expect("a font");
-            for letter in "AZaz09 −–—°·×²³µΩθφψαβΔδ→≤≥…‘’“”éüÅ".chars() {
+            for letter in "AZaz09 −–—°·×²³µΩθφψαβΔδ→≤≥…‘’“”éüÅ".chars()
+            {
                 assert!(face.glyph_index(letter).is_some(), "{weight:?} lacks {letter}");
             }
         }

@@ -22,4 +22,5 @@ mod svg;
 
 pub use line::{Curve, Guide, Look, TOLERANCE};
 pub use page::{Colour, Dash, Page, Pen};
+pub use scale::with_minus;
 pub use svg::{escaped, svg};

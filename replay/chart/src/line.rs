@@ -149,7 +149,8 @@ mod tests {
     fn a_straight_line_needs_two_points_and_a_corner_one_more() {
         let straight: Vec<_> = (0..100).map(|i| [f64::from(i), 2.0 * f64::from(i)]).collect();
         assert_eq!(simplified(&straight, 0.1).len(), 2);
-        let bent: Vec<_> = (0..100_i32).map(|i| [f64::from(i), f64::from((i - 50).abs())]).collect();
+        let bent: Vec<_> =
+            (0..100_i32).map(|i| [f64::from(i), f64::from((i - 50).abs())]).collect();
         assert_eq!(simplified(&bent, 0.1), [[0.0, 50.0], [50.0, 0.0], [99.0, 49.0]]);
         assert!(simplified(&[], 0.1).is_empty());
         assert_eq!(simplified(&[[1.0, 1.0]], 0.1), [[1.0, 1.0]]);

@@ -1,7 +1,7 @@
 //! A page: marks in the order in which they are drawn, in points from the upper left corner.
 
-pub use crate::font::Weight;
 use crate::font;
+pub use crate::font::Weight;
 
 /// Red, green, blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -76,8 +76,9 @@ impl Plane {
             let edges = self.areas.iter().flat_map(|area| &area.edge);
             let all = curves.chain(edges).chain(&self.with);
             let values = all.map(|point| point[axis]).filter(|value| value.is_finite());
-            let (low, high) = values
-                .fold((f64::MAX, f64::MIN), |(low, high), value| (min(low, value), max(high, value)));
+            let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| {
+                (min(low, value), max(high, value))
+            });
             let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
             widened(low, high, max(self.least[axis], 1e-6), TICKS)
         })

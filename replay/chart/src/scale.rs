@@ -46,8 +46,10 @@ impl Scale {
         }
         let step = step(self.high - self.low, count);
         let slack = NEAR * step;
-        let (first, last) =
-            (((self.low - slack) / step).ceil() as i64, ((self.high + slack) / step).floor() as i64);
+        let (first, last) = (
+            ((self.low - slack) / step).ceil() as i64,
+            ((self.high + slack) / step).floor() as i64,
+        );
         (first..=last).map(|n| n as f64 * step).map(|value| (value, written(value, step))).collect()
     }
 }
@@ -122,7 +124,8 @@ mod tests {
 
     #[test]
     fn a_range_is_widened_to_whole_steps_and_to_what_it_has_at_least() {
-        let close = |(a, b): (f64, f64), (c, d): (f64, f64)| (a - c).abs() < 1e-9 && (b - d).abs() < 1e-9;
+        let close =
+            |(a, b): (f64, f64), (c, d): (f64, f64)| (a - c).abs() < 1e-9 && (b - d).abs() < 1e-9;
         assert!(close(widened(-3.2, 11.0, 0.0, 4.0), (-5.0, 15.0)));
         assert!(close(widened(5.0, 5.0, 10.0, 4.0), (0.0, 10.0)));
     }

@@ -89,7 +89,9 @@ impl Space {
     fn shape(&self) -> ([(f64, f64); 3], f64) {
         let mut ranges = [0, 1, 2].map(|axis| {
             let values = self.points().map(|point| point[axis]).filter(|value| value.is_finite());
-            values.fold((f64::MAX, f64::MIN), |(low, high), value| (min(low, value), max(high, value)))
+            values.fold((f64::MAX, f64::MIN), |(low, high), value| {
+                (min(low, value), max(high, value))
+            })
         });
         for range in &mut ranges {
             if range.0 > range.1 {
@@ -100,7 +102,8 @@ impl Space {
         ranges[2].0 = min(ranges[2].0, 0.0);
         let longer = max(max(ranges[0].1 - ranges[0].0, ranges[1].1 - ranges[1].0), 20.0);
         let [east, north, up] = ranges;
-        let [east, north] = [east, north].map(|(low, high)| widened(low, high, NARROW * longer, 5.0));
+        let [east, north] =
+            [east, north].map(|(low, high)| widened(low, high, NARROW * longer, 5.0));
         let up = widened(up.0, up.1, 10.0, 4.0);
         let longer = max(east.1 - east.0, north.1 - north.0);
         let stretch = max(TALL * longer / (up.1 - up.0), 1.0);
@@ -131,8 +134,7 @@ impl Space {
         let (low, tall) = side(1);
         let scale = min(ROOM[0] / wide, ROOM[1] / tall);
         let middle = 0.5 * WIDTH + 8.0;
-        let origin =
-            [middle - scale * (left + 0.5 * wide), HEAD + 22.0 + scale * (low + tall)];
+        let origin = [middle - scale * (left + 0.5 * wide), HEAD + 22.0 + scale * (low + tall)];
         (View { ranges, scale: [scale, scale, scale * stretch], origin }, stretch)
     }
 

@@ -219,7 +219,10 @@ mod tests {
                 _ => continue,
             };
             for [x, y] in points {
-                assert!((0.0..=page.width).contains(x) && (0.0..=page.height).contains(y), "{mark:?}");
+                assert!(
+                    (0.0..=page.width).contains(x) && (0.0..=page.height).contains(y),
+                    "{mark:?}"
+                );
             }
         }
     }

@@ -23,7 +23,8 @@ pub fn svg(page: &Page, id: &str) -> String {
         match mark {
             Mark::Line(points, pen) => {
                 let d = path(points);
-                let _ = writeln!(text, "<path d=\"{d}\"{} stroke-linejoin=\"round\"/>", stroke(pen));
+                let _ =
+                    writeln!(text, "<path d=\"{d}\"{} stroke-linejoin=\"round\"/>", stroke(pen));
             }
             Mark::Area(points, colour, ink) => {
                 let _ = write!(text, "<path d=\"{}Z\" fill=\"{}\"", path(points), hex(*colour));
@@ -53,7 +54,8 @@ pub fn svg(page: &Page, id: &str) -> String {
 fn write_words(text: &mut String, words: &Words) {
     let Words { at: [x, y], size, weight, colour, anchor, .. } = words;
     let (x, y, size) = (number(*x), number(*y), number(*size));
-    let _ = write!(text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", hex(*colour));
+    let _ =
+        write!(text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", hex(*colour));
     text.push_str(match anchor {
         Anchor::Start => "",
         Anchor::Middle => " text-anchor=\"middle\"",
@@ -97,7 +99,8 @@ fn path(points: &[[f64; 2]]) -> String {
 }
 
 fn stroke(pen: &Pen) -> String {
-    let mut text = format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(pen.colour), number(pen.width));
+    let mut text =
+        format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(pen.colour), number(pen.width));
     if let Some([dash, gap]) = pen.dash.lengths() {
         let _ = write!(text, " stroke-dasharray=\"{} {}\"", number(dash), number(gap));
     }
