@@ -2,7 +2,7 @@
 
 use engine::math::{max, sqrt};
 
-use crate::page::{Anchor, Colour, GREY, INK, Page, Pen, width};
+use crate::page::{Anchor, Colour, GREY, INK, PAPER, Page, Pen, width};
 
 /// How far a curve may lie beside its points, in points of the page: less than a printer's dot.
 pub const TOLERANCE: f64 = 0.08;
@@ -138,6 +138,8 @@ pub fn guide(page: &mut Page, guide: &Guide, [left, right]: [f64; 2], place: imp
         let dash = crate::Dash::Dashed;
         page.line(vec![[left, y], [right, y]], Pen { colour: guide.colour, width: 0.9, dash });
     }
+    let wide = width(&guide.words, 8.0);
+    page.rectangle([right - wide - 6.0, top - 11.0], [right - 2.0, top - 0.6], PAPER, 0.85);
     page.words([right - 4.0, top - 3.0], guide.words.as_str(), 8.0, GREY, Anchor::End);
 }
 

@@ -44,13 +44,12 @@ pub fn disc(page: &mut Page, [x, y]: [f64; 2], number: usize, colour: Colour) {
     page.words([x, y + 2.7], number.to_string(), 7.5, PAPER, Anchor::Middle);
 }
 
-/// In which row each disc stands, so that none covers another; as many rows as are needed, three at most.
+/// In which row each disc stands, so that none covers another; as many rows as are needed, four at most.
 fn rows(places: &[f64]) -> Vec<usize> {
-    let mut ends = [f64::MIN; 3];
+    let mut ends = [f64::MIN; 4];
     let row = |x: &f64| {
         let free = ends.iter().position(|end| x - end >= APART);
-        let emptiest = if ends[0] <= ends[1] && ends[0] <= ends[2] { 0 } else { 1 };
-        let row = free.unwrap_or(emptiest);
+        let row = free.unwrap_or(0);
         ends[row] = *x;
         row
     };
@@ -66,16 +65,24 @@ pub fn height(all: &[Moments], place: impl Fn(f64) -> f64) -> f64 {
     all.iter().map(of).sum()
 }
 
-/// Draws discs above `bottom` and lines down to `foot`.
-pub fn draw(page: &mut Page, all: &[Moments], bottom: f64, foot: f64, place: impl Fn(f64) -> f64) {
+/// Draws discs above `bottom`, and lines across each of the panels, from its top to its foot.
+pub fn draw(
+    page: &mut Page,
+    all: &[Moments],
+    bottom: f64,
+    panels: &[(f64, f64)],
+    place: impl Fn(f64) -> f64,
+) {
     let mut bottom = bottom;
     for moments in all {
         let places: Vec<_> = moments.list.iter().map(|moment| place(moment.at)).collect();
         let rows = rows(&places);
         let y = |row: usize| bottom - (row as f64 + 0.5) * ROW;
-        for (x, row) in places.iter().zip(&rows) {
+        for (x, (top, foot)) in
+            places.iter().flat_map(|x| panels.iter().map(move |panel| (x, panel)))
+        {
             let pen = Pen { colour: page::GREY, width: 0.5, dash: Dash::Dotted };
-            page.line(vec![[*x, y(*row)], [*x, foot]], pen);
+            page.line(vec![[*x, *top], [*x, *foot]], pen);
         }
         for (number, (x, row)) in places.iter().zip(&rows).enumerate() {
             disc(page, [*x, y(*row)], number + 1, moments.colour);

@@ -5,7 +5,7 @@ use engine::math::{max, min, sqrt, square};
 use crate::frame::{self, HEAD, LEFT, RIGHT, TITLE_SIZE, WIDTH};
 use crate::line::{self, Curve};
 use crate::moments::{self, Moments, disc};
-use crate::page::{Anchor, Colour, GREY, INK, Page, Pen};
+use crate::page::{Anchor, Colour, GREY, INK, PAPER, Page, Pen, width};
 use crate::scale::{Scale, widened};
 
 /// Room for the legend and the title of the upright axis.
@@ -39,6 +39,8 @@ pub struct Label {
     pub at: [f64; 2],
     /// What.
     pub words: String,
+    /// Which end is there.
+    pub anchor: Anchor,
 }
 
 /// A chart.
@@ -56,6 +58,8 @@ pub struct Plane {
     pub least: [f64; 2],
     /// Points that are in it in any case.
     pub with: Vec<[f64; 2]>,
+    /// The range of the upright axis, where it is not to follow from the curves.
+    pub upright: Option<(f64, f64)>,
     /// Areas below the curves.
     pub areas: Vec<Area>,
     /// Curves.
@@ -87,6 +91,7 @@ impl Plane {
     /// The axes on the page, the panel beginning at `top`.
     fn scales(&self, top: f64) -> [Scale; 2] {
         let [mut across, upwards] = self.ranges();
+        let upwards = self.upright.unwrap_or(upwards);
         let (from, to) = (LEFT + 6.0, WIDTH - RIGHT);
         let mut height = HEIGHT;
         if self.equal {
@@ -128,12 +133,12 @@ impl Plane {
         }
         for label in &self.labels {
             let at = place(label.at);
-            page.words(at, label.words.as_str(), 8.5, GREY, Anchor::Start);
+            page.words(at, label.words.as_str(), 8.5, GREY, label.anchor);
         }
+        frame::around(&mut page, &x, &y, &y_ticks);
         for (moments, places) in self.moments.iter().zip(&self.places) {
             mark(&mut page, places.iter().copied().map(place), moments.colour);
         }
-        frame::around(&mut page, &x, &y, &y_ticks);
         page.words([x.from, top - 6.0], self.axes[1].as_str(), TITLE_SIZE, INK, Anchor::Start);
         line::legend(&mut page, &self.curves, x.to, top - 6.0);
         frame::below(&mut page, &x, y.from, &x_ticks, &self.axes[0]);
@@ -148,38 +153,55 @@ fn around((low, high): (f64, f64), wide: f64) -> (f64, f64) {
     (middle - 0.5 * wide, middle + 0.5 * wide)
 }
 
-/// Numbers moments along a curve; one that would cover others stands beside its place, at the end of a line.
+/// Numbers moments along a curve. Those at one place share a label, which stands above it.
 pub fn mark(page: &mut Page, places: impl Iterator<Item = [f64; 2]>, colour: Colour) {
-    let apart = 2.0 * moments::RADIUS + 0.5;
-    let mut taken: Vec<[f64; 2]> = Vec::new();
-    for (number, at) in places.enumerate() {
-        let free = |spot: &[f64; 2]| {
-            let away = |other: &[f64; 2]| distance(*spot, *other) >= apart;
-            taken.iter().all(away) && spot[0] < WIDTH - RIGHT && spot[0] > LEFT
-        };
-        let ring = (1..6).flat_map(|ring| {
-            // Around the place, the upper right first: turns of 45 degrees.
-            const TURNS: [[f64; 2]; 8] = [
-                [0.7, -0.7],
-                [1.0, 0.0],
-                [0.7, 0.7],
-                [0.0, 1.0],
-                [-0.7, 0.7],
-                [-1.0, 0.0],
-                [-0.7, -0.7],
-                [0.0, -1.0],
-            ];
-            let far = apart * f64::from(ring);
-            TURNS.map(|[x, y]| [at[0] + far * x, at[1] + far * y])
-        });
-        let spot = std::iter::once(at).chain(ring).find(free).unwrap_or(at);
-        if distance(spot, at) > 0.0 {
-            page.line(vec![at, spot], Pen::solid(colour, 0.5));
-            page.disc(at, 1.4, colour, None);
+    let apart = 2.0 * moments::RADIUS;
+    let mut clusters: Vec<([f64; 2], Vec<usize>)> = Vec::new();
+    for (place, at) in places.enumerate() {
+        match clusters.iter_mut().find(|(known, _)| distance(*known, at) < apart) {
+            Some((_, numbers)) => numbers.push(place + 1),
+            None => clusters.push((at, vec![place + 1])),
         }
-        taken.push(spot);
-        disc(page, spot, number + 1, colour);
     }
+    for (at, numbers) in clusters {
+        match numbers[..] {
+            [number] => disc(page, at, number, colour),
+            _ => label(page, at, &ranges(&numbers), colour),
+        }
+    }
+}
+
+/// Numbers in a box with round ends above a dot.
+fn label(page: &mut Page, [x, y]: [f64; 2], words: &str, colour: Colour) {
+    const ABOVE: f64 = 15.0;
+    let radius = moments::RADIUS;
+    let half = 0.5 * width(words, 7.5);
+    let middle = max(min(x, WIDTH - RIGHT - half - radius), LEFT + half + radius + 8.0);
+    let up = y - ABOVE;
+    page.line(vec![[x, y], [middle, up]], Pen::solid(colour, 0.6));
+    page.disc([x, y], 2.2, colour, Some(Pen::solid(PAPER, 0.8)));
+    let edge = Some(Pen::solid(PAPER, 0.8));
+    page.disc([middle - half, up], radius, colour, edge);
+    page.disc([middle + half, up], radius, colour, edge);
+    page.rectangle([middle - half, up - radius], [middle + half, up + radius], colour, 1.0);
+    page.words([middle, up + 2.7], words, 7.5, PAPER, Anchor::Middle);
+}
+
+/// `1–4, 7`.
+fn ranges(numbers: &[usize]) -> String {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for number in numbers {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == *number => *last = *number,
+            _ => runs.push((*number, *number)),
+        }
+    }
+    let run = |(first, last): &(usize, usize)| match last - first {
+        0 => first.to_string(),
+        1 => format!("{first}, {last}"),
+        _ => format!("{first}–{last}"),
+    };
+    runs.iter().map(run).collect::<Vec<_>>().join(", ")
 }
 
 fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
@@ -198,6 +220,7 @@ mod tests {
             equal: true,
             least: [50.0, 50.0],
             with: Vec::new(),
+            upright: None,
             areas: Vec::new(),
             curves: vec![Curve::line("", Pen::solid(INK, 1.0), points)],
             labels: Vec::new(),
@@ -222,22 +245,19 @@ mod tests {
     }
 
     #[test]
-    fn numbers_at_one_place_do_not_cover_each_other() {
-        let mut page = Page::new(WIDTH, 100.0, "", "");
-        mark(&mut page, [[300.0, 50.0]; 5].into_iter(), INK);
-        let discs: Vec<[f64; 2]> = page
-            .marks
-            .iter()
-            .filter_map(|mark| match mark {
-                crate::page::Mark::Disc(at, radius, ..) if *radius > 2.0 => Some(*at),
+    fn numbers_at_one_place_share_a_label() {
+        let words = |places: &[[f64; 2]]| -> Vec<String> {
+            let mut page = Page::new(WIDTH, 100.0, "", "");
+            mark(&mut page, places.iter().copied(), INK);
+            let of = |mark: &crate::page::Mark| match mark {
+                crate::page::Mark::Words(words) => Some(words.text.clone()),
                 _ => None,
-            })
-            .collect();
-        assert_eq!(discs.len(), 5);
-        for (i, a) in discs.iter().enumerate() {
-            for b in &discs[..i] {
-                assert!(distance(*a, *b) >= 2.0 * moments::RADIUS, "{a:?} {b:?}");
-            }
-        }
+            };
+            page.marks.iter().filter_map(of).collect()
+        };
+        assert_eq!(words(&[[300.0, 50.0], [340.0, 50.0]]), ["1", "2"]);
+        let there = [300.0, 50.0];
+        assert_eq!(words(&[there, there, there, [500.0, 50.0], there]), ["1–3, 5", "4"]);
+        assert_eq!(ranges(&[1, 2, 5, 7, 8, 9]), "1, 2, 5, 7–9");
     }
 }

@@ -224,7 +224,8 @@ fn walls(page: &mut Page, view: &View, axes: &[String; 3]) {
         let [px, py] = view.at([east.0, *y, up.0]);
         page.words([px - 5.0, py + 9.0], words.as_str(), TICK_SIZE, INK, Anchor::End);
     }
-    for (z, words) in &of_up {
+    // The lowest one would stand in the numbers of the corner.
+    for (z, words) in of_up.iter().filter(|(z, _)| *z > up.0) {
         let [px, py] = view.at([east.0, north.1, *z]);
         page.words([px - 6.0, py + 3.0], words.as_str(), TICK_SIZE, INK, Anchor::End);
     }

@@ -5,7 +5,7 @@ use engine::math::{max, min};
 use crate::frame::{self, HEAD, LEFT, RIGHT, TITLE_SIZE, WIDTH};
 use crate::line::{self, Curve, Guide, Look};
 use crate::moments::{self, Moments};
-use crate::page::{Anchor, Colour, INK, Page, fitted, width};
+use crate::page::{Anchor, Colour, INK, Page, width};
 use crate::scale::{Scale, decades, widened};
 
 /// Height of a panel's title.
@@ -138,7 +138,8 @@ impl Stack {
             frame::panel(&mut page, &x, &scale, &x_ticks, &y_ticks);
             drawn.push((panel, scale, y_ticks));
         }
-        moments::draw(&mut page, &self.moments, top, y, place);
+        let across: Vec<_> = drawn.iter().map(|(_, scale, _)| (scale.to, scale.from)).collect();
+        moments::draw(&mut page, &self.moments, top, &across, place);
         for (panel, scale, y_ticks) in &drawn {
             for guide in &panel.guides {
                 line::guide(&mut page, guide, [from, to], |value| scale.at(value));
@@ -174,10 +175,9 @@ fn draw_band(page: &mut Page, band: &[Span], top: f64, x: &Scale) {
         }
         page.rectangle([from, top], [to, top + BAND], span.colour, 1.0);
         let room = to - from - 4.0;
-        if width(&span.words, 8.0) <= room {
-            let words = fitted(&span.words, 8.0, room);
+        if let Some(size) = [8.0, 7.0].into_iter().find(|size| width(&span.words, *size) <= room) {
             let at = [0.5 * (from + to), top + BAND - 3.2];
-            page.words(at, words, 8.0, INK, Anchor::Middle);
+            page.words(at, span.words.as_str(), size, INK, Anchor::Middle);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The conversion corridor, and how the flight went through it.
 
+use chart::page::Anchor;
 use chart::plane::{Area, Label, Plane};
 use chart::{Colour, Curve, Pen};
 use engine::units::{degrees, knots};
@@ -43,7 +44,8 @@ pub fn plane(flights: &[&Flight]) -> Plane {
         ],
         equal: false,
         least: [40.0, 20.0],
-        with: vec![[0.0, 0.0], [0.0, 95.0]],
+        with: vec![[0.0, 0.0]],
+        upright: Some((-6.0, 102.0)),
         areas: vec![Area { edge: limits.edge(), colour: INSIDE, ink: 1.0 }],
         labels: limits.labels(),
         curves,
@@ -115,10 +117,13 @@ impl Limits {
         let label = |point: &[f64; 2]| Label {
             at: [point[0] + 3.0, point[1] + 2.0],
             words: "rotor and mast loads".into(),
+            anchor: Anchor::Start,
         };
-        let slow = self.slowest.iter().find(|point| point[0] > 0.0).map(|point| Label {
-            at: [point[0] + 3.0, point[1] + 2.0],
+        let slowest: Vec<_> = self.slowest.iter().filter(|point| point[0] > 0.0).collect();
+        let slow = slowest.get(slowest.len() / 2).map(|point| Label {
+            at: [point[0] - 4.0, point[1] - 2.0],
             words: "wing stall".into(),
+            anchor: Anchor::End,
         });
         middle.map(label).into_iter().chain(slow).collect()
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use engine::aircraft::Params as Aircraft;
 use engine::envelope::{CORRIDOR_HEIGHT_M, Corridor};
 use engine::frames::{Ned, Vec3};
-use engine::math::wrap_angle;
+use engine::math::{TAU, max, wrap_angle};
 use engine::pair::Pair;
 use engine::units::degrees;
 use engine::{Outputs, STEP_NS, STEP_S};
@@ -17,6 +17,7 @@ use crate::judgement::{Judgement, Outcome};
 
 /// Of this many ticks one is a row: 50 Hz.
 const TICKS_PER_ROW: u64 = 5;
+const ROW_S: f64 = TICKS_PER_ROW as f64 * STEP_S;
 /// So many moments are numbered in a figure.
 const MOMENTS_MAX: usize = 16;
 
@@ -232,7 +233,8 @@ impl Flight {
     /// From when to when, s.
     pub fn range_s(&self) -> (f64, f64) {
         match (self.rows.first(), self.rows.last()) {
-            (Some(first), Some(last)) => (first.time_s, last.time_s),
+            // Before the first row a flight begins.
+            (Some(first), Some(last)) => (max(first.time_s - ROW_S, 0.0), last.time_s),
             _ => (0.0, 0.0),
         }
     }
@@ -284,7 +286,7 @@ impl Gatherer {
         let heading_rad = outputs.euler.heading_rad;
         let continued = match self.heading_rad {
             Some(before) => before + wrap_angle(heading_rad - before),
-            None => heading_rad,
+            None => heading_rad.rem_euclid(TAU),
         };
         self.heading_rad = Some(continued);
         if outputs.tick.is_multiple_of(TICKS_PER_ROW) {

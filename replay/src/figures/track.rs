@@ -90,6 +90,7 @@ pub fn plan(flights: &[&Flight]) -> Plane {
         equal: true,
         least: [20.0, 20.0],
         with: Vec::new(),
+        upright: None,
         areas: Vec::new(),
         curves: curves.map(|(name, pen, points)| Curve::line(name, pen, points)).collect(),
         labels: Vec::new(),
