@@ -28,12 +28,13 @@ fn the_same_log_gives_the_same_figures_and_the_same_report() {
     let (one, other) = (out.join("one"), out.join("other"));
     for to in [&one, &other] {
         tiltrotor(&["plot", text(&log), "--out", text(to)]).ends(OK).says("exact");
-        tiltrotor(&["plot", text(&log), "--out", text(to), "--format", "png"]).ends(OK);
+        let painted = ["--format", "png", "--figure", "corridor"];
+        let plot = ["plot", text(&log), "--out", text(to)];
+        tiltrotor(&[&plot[..], &painted].concat()).ends(OK);
         tiltrotor(&["report", text(&log), "--out", text(&to.join("report.html"))]).ends(OK);
     }
-    for name in
-        FIGURES.iter().flat_map(|name| ["svg", "png"].map(|form| format!("hover-{name}.{form}")))
-    {
+    let svg = FIGURES.iter().map(|name| format!("hover-{name}.svg"));
+    for name in svg.chain(["hover-corridor.png".into()]) {
         let (one, other) = (fs::read(one.join(&name)), fs::read(other.join(&name)));
         assert_eq!(one.expect(&name), other.expect(&name), "{name}");
     }
@@ -180,7 +181,8 @@ fn a_crash_is_named_in_events_summary_and_report() {
     let out = folder("figures_crash");
     let (script, log) = (out.join("roll.toml"), out.join("crash.mcap"));
     fs::write(&script, "[[event]]\nat_s = 1.0\naxis = { stick_right = 1.0 }\n").expect("a file");
-    let more = ["--speed-kt", "100", "--altitude-ft", "400", "--duration", "15", "--fast"];
+    let more =
+        ["--from-trim", "--speed-kt", "100", "--altitude-ft", "400", "--duration", "15", "--fast"];
     let flight = ["fly", "--no-flightgear", "--script", text(&script), "--out", text(&log)];
     tiltrotor(&[&flight[..], &more].concat()).ends(OK);
     let summary = tiltrotor(&["log", "summary", text(&log)]).ends(OK);

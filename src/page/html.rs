@@ -34,10 +34,14 @@ impl Html {
 
     /// Adds a picture with what stands below it.
     pub fn figure(&mut self, page: &chart::Page, id: &str, caption: &str) {
-        self.markup("<figure>\n");
+        self.markup("<figure>\n<div class=\"wide\">\n");
         // Written by the chart, which escapes.
         self.0.push_str(&chart::svg(page, id));
-        self.element("figcaption", caption).markup("</figure>\n");
+        self.markup("</div>\n");
+        if !caption.is_empty() {
+            self.element("figcaption", caption);
+        }
+        self.markup("</figure>\n");
     }
 
     /// Adds a table.
