@@ -43,13 +43,17 @@ fn what_was_flown(flown: &Afterwards) -> String {
     let height_m = rows.iter().map(|row| row.height_m).fold(0.0, max);
     let speed_mps = rows.iter().map(|row| row.airspeed_mps).fold(0.0, max);
     let distance_m = flown.margins.distance_m;
+    let distance = if distance_m < 1000.0 {
+        format!("{distance_m:.0} m")
+    } else {
+        let miles = distance_m / NAUTICAL_MILE_M;
+        format!("{:.2} km ({miles:.2} nautical miles)", distance_m * 1e-3)
+    };
     format!(
-        "{}: {:.1} s of flight, {:.2} km ({:.2} nautical miles) over the ground, up to {height_m:.0} m \
-         ({:.0} ft) above it and {:.0} kt true airspeed.",
+        "{}: {:.1} s of flight, {distance} over the ground, up to {height_m:.0} m ({:.0} ft) above it and \
+         {:.0} kt true airspeed.",
         flown.aircraft,
         (last - first) as f64 * STEP_S,
-        distance_m * 1e-3,
-        distance_m / NAUTICAL_MILE_M,
         height_m / FOOT_M,
         knots(speed_mps),
     )

@@ -1,6 +1,6 @@
 //! From values to places, and the values at which an axis has ticks.
 
-use engine::math::{ln, max};
+use engine::math::{ln, max, min};
 
 /// Steps that an axis counts in, times a power of ten.
 const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
@@ -60,10 +60,12 @@ pub fn decades(low: f64, high: f64) -> (f64, f64) {
     (ten_to(low), ten_to(high.max(low + 1)))
 }
 
-/// The range, widened to whole steps, and to `least` where it is less.
+/// The range, widened to whole steps, and to `least` where it is less. What is never negative does not become
+/// it.
 pub fn widened(low: f64, high: f64, least: f64, count: f64) -> (f64, f64) {
     let lacking = max(least - (high - low), 0.0);
-    let (low, high) = (low - 0.5 * lacking, high + 0.5 * lacking);
+    let lower = if low >= 0.0 { min(0.5 * lacking, low) } else { 0.5 * lacking };
+    let (low, high) = (low - lower, high + lacking - lower);
     let step = step(high - low, count);
     (((low + NEAR * step) / step).floor() * step, ((high - NEAR * step) / step).ceil() * step)
 }
@@ -128,6 +130,7 @@ mod tests {
             |(a, b): (f64, f64), (c, d): (f64, f64)| (a - c).abs() < 1e-9 && (b - d).abs() < 1e-9;
         assert!(close(widened(-3.2, 11.0, 0.0, 4.0), (-5.0, 15.0)));
         assert!(close(widened(5.0, 5.0, 10.0, 4.0), (0.0, 10.0)));
+        assert!(close(widened(0.0, 2.0, 10.0, 4.0), (0.0, 10.0)), "never below nothing");
     }
 
     #[test]

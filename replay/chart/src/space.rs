@@ -16,8 +16,11 @@ const RISE: (f64, f64) = (0.422_618_261_740_699_4, 0.906_307_787_036_649_9);
 const TALL: f64 = 0.28;
 /// Room on the page for the box.
 const ROOM: [f64; 2] = [600.0, 360.0];
-/// A side is at least this part of the other one.
+/// A side is at least this part of the other one, and one of them this part of the height.
 const NARROW: f64 = 0.25;
+const SLENDER: f64 = 0.6;
+/// One of the sides is at least so long.
+const LEAST_SIDE: f64 = 20.0;
 
 /// A curve in space: right, away and up, or as the axes are called.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,10 +103,11 @@ impl Space {
         }
         // The floor is the ground unless the flight goes below it.
         ranges[2].0 = min(ranges[2].0, 0.0);
-        let longer = max(max(ranges[0].1 - ranges[0].0, ranges[1].1 - ranges[1].0), 20.0);
         let [east, north, up] = ranges;
-        let [east, north] =
-            [east, north].map(|(low, high)| widened(low, high, NARROW * longer, 5.0));
+        let side = max(east.1 - east.0, north.1 - north.0);
+        let longer = max(max(side, LEAST_SIDE), SLENDER * (up.1 - up.0));
+        let least = if side < longer { longer } else { NARROW * longer };
+        let [east, north] = [east, north].map(|(low, high)| widened(low, high, least, 5.0));
         let up = widened(up.0, up.1, 10.0, 4.0);
         let longer = max(east.1 - east.0, north.1 - north.0);
         let stretch = max(TALL * longer / (up.1 - up.0), 1.0);
