@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use anyhow::{Context, Result, bail};
+use clap::Command;
 use clap_complete::Shell;
 
 use crate::console::Stdout;
@@ -22,22 +23,21 @@ pub struct ManArgs {
     verb: Vec<String>,
 }
 
-/// Prints the completions.
-pub fn run(args: &Args) -> Result<Status> {
+/// Prints the completions of a command.
+pub fn run(args: &Args, mut command: Command) -> Result<Status> {
     let mut text = Vec::new();
-    clap_complete::generate(args.shell, &mut crate::whole(), "tiltrotor", &mut text);
+    clap_complete::generate(args.shell, &mut command, "tiltrotor", &mut text);
     // An error is kept there, and told at the end.
     let _ = Stdout.write_all(&text);
     Ok(Status::Done)
 }
 
-/// Prints a manual page.
-pub fn man(args: &ManArgs) -> Result<Status> {
-    let mut command = crate::whole();
+/// Prints a manual page of a command, or of a verb of its.
+pub fn man(args: &ManArgs, mut command: Command) -> Result<Status> {
     command.build();
     for name in &args.verb {
         let Some(verb) = command.find_subcommand(name) else {
-            let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            let verbs: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
             bail!("{} has no verb `{name}`; it has {}", command.get_name(), verbs.join(", "));
         };
         command = verb.clone();

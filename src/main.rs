@@ -148,7 +148,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Doctor(args) => doctor::run(&args),
         Command::Flightgear(args) => flightgear::run(&args),
         Command::Demo(args) => demo::run(&args),
-        Command::Completions(args) => completions::run(&args),
-        Command::Man(args) => completions::man(&args),
+        Command::Completions(args) => completions::run(&args, whole()),
+        Command::Man(args) => completions::man(&args, whole()),
     }
 }

@@ -6,7 +6,8 @@ use chart::{Colour, Curve, Pen};
 use engine::units::{degrees, knots};
 
 use super::flight::{Flight, Row};
-use super::{Figure, look};
+use super::list::Figure;
+use super::look;
 
 /// The corridor's inside.
 const INSIDE: Colour = Colour(0xE3, 0xEF, 0xE6);

@@ -6,7 +6,8 @@ use engine::STEP_S;
 use engine::math::{max, min};
 
 use super::flight::{Flight, StepTime};
-use super::{Figure, Undrawn, look};
+use super::list::{Figure, Undrawn};
+use super::look;
 
 /// Columns of ticks across the figure: each is drawn by its median and its longest.
 const COLUMNS: usize = 300;

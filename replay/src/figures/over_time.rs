@@ -6,7 +6,8 @@ use engine::math::{max, min};
 use engine::units::{FOOT_M, FPM_PER_MPS, RPM_PER_RADPS, degrees, knots};
 
 use super::flight::{Flight, Row};
-use super::{Figure, look};
+use super::list::Figure;
+use super::look;
 
 /// How a quantity is read off a row.
 type Read = fn(&Row) -> f64;

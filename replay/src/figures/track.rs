@@ -4,8 +4,9 @@ use chart::plane::Plane;
 use chart::space::{Flight as Curves, Space};
 use chart::{Colour, Curve, Pen};
 
-use super::flight::{Flight, Row};
-use super::{Figure, look};
+use super::flight::{Configuration, Flight, Row};
+use super::list::Figure;
+use super::look;
 
 /// Posts to the ground stand so many seconds apart, or further where there would be too many.
 const POST_S: f64 = 10.0;
@@ -30,7 +31,7 @@ fn pieces<T>(
         let points = flight.rows.iter().map(place).collect();
         return vec![(flight.name.clone(), look::pen(of, false), points)];
     }
-    let piece = |(configuration, first, last): (super::Configuration, usize, usize)| {
+    let piece = |(configuration, first, last): (Configuration, usize, usize)| {
         let points = flight.rows[first..=last].iter().map(&place).collect();
         let pen = Pen::solid(look::colour(configuration), 1.6);
         (configuration.words().to_string(), pen, points)
