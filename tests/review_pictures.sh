@@ -18,7 +18,7 @@ for name in trajectory euler corridor; do
     cp "$work/demo-$name.svg" "docs/pictures/review_$name.svg"
 done
 
-# The same hands in another wind: the second flight is told apart.
+# The same hands on pedals that are geared otherwise.
 fly=(fly --pilot convert --fast --no-flightgear --duration 90)
 "$tiltrotor" "${fly[@]}" --out "$work/calm.mcap" || [ $? = 4 ]
 "$tiltrotor" whatif "$work/calm.mcap" --set fcc.travel.pedal_in=2 --out "$work/pedals.mcap"
