@@ -1,7 +1,9 @@
 //! Tells the program what it was built from: commit, compiler, target.
 
-use std::env;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 /// All that the program is built from. What lies beside it (documents, tests) changes no program.
 const SOURCES: [&str; 12] = [
@@ -29,7 +31,74 @@ fn said_by(program: &str, arguments: &[&str]) -> Option<String> {
     output.status.success().then(|| text.trim().to_string())
 }
 
+/// Where the structs are defined whose numbers a log holds.
+const RECORDED: [&str; 2] = ["engine/src", "logs/src"];
+
+/// Writes down what is said of the fields of every public struct, so that `log fields` tells it: a table of
+/// structs, each with the names of its fields and their doc comments.
+fn describe() {
+    let mut files = Vec::new();
+    for folder in RECORDED {
+        sources(Path::new(folder), &mut files);
+    }
+    files.sort();
+    let mut table = String::from("&[\n");
+    for file in files {
+        let Ok(text) = fs::read_to_string(&file) else { continue };
+        for (name, fields) in structs(&text) {
+            let _ = writeln!(table, "    ({name:?}, &{fields:?}),");
+        }
+    }
+    table.push_str("]\n");
+    if let Some(folder) = env::var_os("OUT_DIR") {
+        let written = fs::write(Path::new(&folder).join("descriptions.rs"), table);
+        assert!(written.is_ok(), "the list of descriptions cannot be written: {written:?}");
+    }
+}
+
+fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            sources(&path, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+}
+
+/// A struct's fields: each with its doc comment.
+type Fields = Vec<(String, String)>;
+
+/// The public structs with named fields, as rustfmt writes them: a field a line, its doc comment above it.
+fn structs(text: &str) -> Vec<(String, Fields)> {
+    let mut found: Vec<(String, Fields)> = Vec::new();
+    let (mut inside, mut doc) = (false, Vec::new());
+    for line in text.lines() {
+        let line = line.trim_end();
+        if let Some(name) = line.strip_prefix("pub struct ").filter(|_| line.ends_with('{')) {
+            let name = name.split(['<', ' ']).next().unwrap_or_default();
+            found.push((name.into(), Vec::new()));
+            inside = true;
+            doc.clear();
+        } else if line == "}" {
+            inside = false;
+        } else if let Some(words) = line.trim_start().strip_prefix("///").filter(|_| inside) {
+            doc.push(words.trim());
+        } else if let Some((name, _)) =
+            line.trim_start().strip_prefix("pub ").and_then(|field| field.split_once(':'))
+            && inside
+            && let Some((_, fields)) = found.last_mut()
+        {
+            fields.push((name.into(), doc.join(" ")));
+            doc.clear();
+        }
+    }
+    found
+}
+
 fn main() {
+    describe();
     let unknown = || "unknown".to_string();
     let commit = said_by("git", &["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(unknown);
     let dirty = said_by("git", &[&STATUS[..], &SOURCES[..]].concat())

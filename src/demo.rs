@@ -1,12 +1,20 @@
 //! `tiltrotor demo`.
 
-use anyhow::Result;
-#[cfg(feature = "rerun")]
-use logs::output;
+use std::path::{Path, PathBuf};
 
+use anyhow::Result;
+use logs::output;
+use replay::Window;
+use replay::figures::Figure;
+
+use crate::afterwards::Afterwards;
 use crate::fly::{Common, Plan};
 use crate::status::Status;
-use crate::{fly, report, verify};
+use crate::{fly, page, plot, report, verify};
+
+/// The figures of the paper's flight, with their numbers there.
+const PAPER: [(Figure, u32); 3] =
+    [(Figure::Trajectory, 6), (Figure::Euler, 7), (Figure::Latency, 8)];
 
 /// The demonstration flight.
 #[derive(clap::Args)]
@@ -15,7 +23,24 @@ pub struct Args {
     common: Common,
 }
 
-/// Flies, verifies, saves for the viewer, and sums up.
+/// Where a figure of a log is: beside it.
+fn figure_of(log: &Path, figure: Figure) -> PathBuf {
+    log.with_file_name(plot::file_name(&[log], figure, "svg"))
+}
+
+/// The paper's figures of the flight and the report on it, beside its log.
+fn afterwards(log: &Path, force: bool) -> Result<()> {
+    let flown = Afterwards::of(log, &Window::default())?;
+    for (figure, number) in PAPER {
+        let path = figure_of(log, figure);
+        let bytes = plot::svg(figure, &[&flown.flight])?;
+        plot::write(&path, &bytes, force, &[log])?;
+        say!("{}: {}, figure {number} of the paper", path.display(), figure.facts().words);
+    }
+    page::write(&flown, &page::beside(log), false, force, log)
+}
+
+/// Flies, verifies, draws, and sums up.
 pub fn run(args: &Args) -> Result<Status> {
     let out = &args.common.out;
     let mut plan = Plan::new(&args.common, None)?;
@@ -24,6 +49,9 @@ pub fn run(args: &Args) -> Result<Status> {
     let saved = out.with_extension("rrd");
     #[cfg(feature = "rerun")]
     output::refuse(&saved, args.common.force, &[])?;
+    for path in PAPER.map(|(figure, _)| figure_of(out, figure)).iter().chain([&page::beside(out)]) {
+        output::refuse(path, args.common.force, &[])?;
+    }
     let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP)?;
     plan.set_pilot("demo", &map)?;
     plan.set_map(map)?;
@@ -52,6 +80,7 @@ pub fn run(args: &Args) -> Result<Status> {
         Status::Done if !fly::is_whole(&landing) => Status::CutShort,
         status => status,
     };
+    afterwards(out, args.common.force)?;
     #[cfg(feature = "rerun")]
     {
         let output = output::Output::beside(&saved, args.common.force, &[out])?;

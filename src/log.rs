@@ -4,6 +4,7 @@ mod cat;
 mod clip;
 mod compact;
 mod export;
+mod fields;
 mod files;
 mod find;
 
@@ -39,6 +40,8 @@ pub enum Command {
     Find(find::Args),
     /// The files in a log: aircraft, cockpit map, scenario and whatever else was attached
     Files(files::Args),
+    /// Every field of every channel of a log: its unit, and what it is
+    Fields(fields::Args),
     /// Logs as tables, CSV or Parquet, units in the columns' names: a folder a channel, a file a flight
     Export(export::Args),
     /// What an engineer reads of a flight: events, greatest values and when, touchdown, where it ended
@@ -76,6 +79,7 @@ pub fn run(command: &Command) -> Result<Status> {
         Command::Cat(args) => cat::run(args),
         Command::Find(args) => find::run(args),
         Command::Files(args) => files::run(args),
+        Command::Fields(args) => fields::run(args),
         Command::Export(args) => export::run(args),
         Command::Summary { log, window } => summary(log, window),
         Command::Clip(args) => clip::run(args),

@@ -3,7 +3,9 @@
 #[macro_use]
 mod console;
 
+mod afterwards;
 mod claim;
+mod completions;
 mod condition;
 mod controls;
 mod demo;
@@ -23,7 +25,9 @@ mod made;
 #[cfg(feature = "sticks")]
 mod maps;
 mod numbers;
+mod page;
 mod panel;
+mod plot;
 mod replay_live;
 mod report;
 mod status;
@@ -64,6 +68,11 @@ enum Command {
     Diff(diff::Args),
     /// Show a log in the rerun viewer, or save it for the viewer.
     View(view::Args),
+    /// Figures of a flight, as a paper has them: SVG or PNG.
+    Plot(plot::Args),
+    /// A flight on one page: verdict, summary, figures, events, limits, how to refly it; HTML that needs nothing
+    /// beside it.
+    Report(page::Args),
     /// Refly the recorded inputs with changed parameters, or another aircraft, from a moment on, into a
     /// new log.
     Whatif(whatif::Args),
@@ -83,11 +92,14 @@ enum Command {
     Flightgear(flightgear::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
+    /// Completions of verbs and options for a shell, on standard output.
+    Completions(completions::Args),
+    /// The manual page of the command or of a verb, for `man -l -`.
+    Man(completions::ManArgs),
 }
 
 fn main() -> ExitCode {
-    let command = status::explained(Cli::command());
-    let parsed = command.try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let parsed = whole().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
     let status = match parsed {
         Ok(cli) => run(cli.command).unwrap_or_else(|error| {
             complain!("tiltrotor: {error:#}");
@@ -111,6 +123,11 @@ fn main() -> ExitCode {
     console::finish().map_or_else(|error| unwritten(&error), |()| status).into()
 }
 
+/// The command with all its verbs, and what is to be known of their exit statuses.
+fn whole() -> clap::Command {
+    status::explained(Cli::command())
+}
+
 /// A report that nobody can read is no result, whatever it says.
 fn unwritten(error: &std::io::Error) -> Status {
     complain!("tiltrotor: cannot write to standard output: {error}");
@@ -125,6 +142,8 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Verify(args) => verify::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::View(args) => view::run(&args),
+        Command::Plot(args) => plot::run(&args),
+        Command::Report(args) => page::run(&args),
         Command::Whatif(args) => whatif::run(&args),
         Command::Log(command) => log::run(&command),
         Command::Trim(args) => trim::run(&args),
@@ -133,5 +152,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Doctor(args) => doctor::run(&args),
         Command::Flightgear(args) => flightgear::run(&args),
         Command::Demo(args) => demo::run(&args),
+        Command::Completions(args) => completions::run(&args, whole()),
+        Command::Man(args) => completions::man(&args, whole()),
     }
 }

@@ -36,12 +36,15 @@ const VERBS: &[(&str, &[Status])] = &[
     ("verify", &[Done, Differs, Unusable, NeverClosed, Compared]),
     ("diff", &[Done, Differs, Unusable, NeverClosed]),
     ("view", &[Done, Differs, Unusable, NeverClosed]),
+    ("plot", &[Done, Differs, Unusable, NeverClosed]),
+    ("report", &[Done, Differs, Unusable, NeverClosed]),
     ("whatif", &[Done, Unusable, NeverClosed]),
     ("log info", &[Done, Differs, Unusable, NeverClosed]),
     ("log summary", &[Done, Differs, Unusable, NeverClosed]),
     ("log cat", &[Done, Differs, Unusable, NeverClosed]),
     ("log find", &[Done, Differs, Unusable, NeverClosed]),
     ("log files", &[Done, Unusable, NeverClosed]),
+    ("log fields", &[Done, Unusable, NeverClosed]),
     ("log export", &[Done, Differs, Unusable, NeverClosed]),
     ("log clip", &[Done, Unusable, NeverClosed]),
     ("log compact", &[Done, Unusable, NeverClosed]),
@@ -51,6 +54,8 @@ const VERBS: &[(&str, &[Status])] = &[
     ("doctor", &[Done, Unusable]),
     ("linearize", &[Done, Unusable, NotConverged]),
     ("identify", &[Done, Differs, Unusable, NeverClosed]),
+    ("completions", &[Done, Unusable]),
+    ("man", &[Done, Unusable]),
 ];
 
 /// Verbs that take several logs.

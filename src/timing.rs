@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use logs::records::TIMING_FACTS;
 
 /// The kinds of durations in a log, and what they are.
-const KINDS: [(&str, &str); 5] = [
+pub const KINDS: [(&str, &str); 5] = [
     ("late_ns", "from when a tick was due until it ran"),
     ("step_ns", "the flight model"),
     ("sent_ns", "from when a tick was due to the picture"),
@@ -41,7 +41,7 @@ pub fn say(facts: &BTreeMap<String, String>) {
 }
 
 /// A histogram: the greatest duration of each step in ns, and how many there were.
-fn steps(text: &str) -> Option<Vec<(u64, u64)>> {
+pub fn steps(text: &str) -> Option<Vec<(u64, u64)>> {
     let step = |step: &str| {
         let (ns, count) = step.split_once(':')?;
         Some((ns.parse().ok()?, count.parse().ok()?))
@@ -50,7 +50,7 @@ fn steps(text: &str) -> Option<Vec<(u64, u64)>> {
 }
 
 /// p50, p99, p99.9 and the longest, ms.
-fn percentiles(steps: &[(u64, u64)]) -> Option<[f64; 4]> {
+pub fn percentiles(steps: &[(u64, u64)]) -> Option<[f64; 4]> {
     let all: u64 = steps.iter().try_fold(0_u64, |sum, (_, count)| sum.checked_add(*count))?;
     let (longest_ns, _) = steps.last()?;
     let at = |part: f64| {

@@ -15,11 +15,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("engine", &[]),
     ("aircraft", &["engine"]),
     ("analysis", &["engine"]),
+    ("chart", &["engine"]),
     ("flightgear", &["engine"]),
     ("flightgear-package", &["aircraft", "engine"]),
     ("logs", &["engine"]),
     ("recorder", &["aircraft", "analysis", "engine", "flightgear", "logs"]),
-    ("replay", &["aircraft", "analysis", "engine", "logs"]),
+    ("replay", &["aircraft", "analysis", "chart", "engine", "logs"]),
 ];
 
 /// Crates of others that one crate of ours alone may know.
@@ -36,6 +37,8 @@ const KEPT: &[(&str, &str)] = &[
     ("png", "flightgear-package"),
     ("rerun", "replay"),
     ("rustfft", "replay"),
+    ("tiny-skia", "chart"),
+    ("ttf-parser", "chart"),
     ("udev", "recorder"),
     ("zerocopy", "flightgear"),
 ];

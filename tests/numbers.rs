@@ -39,6 +39,8 @@ fn verbs(log: &str) -> Vec<(Vec<&'static str>, Vec<String>)> {
         (vec!["verify"], log()),
         (vec!["diff"], [log(), log()].concat()),
         (vec!["view"], log()),
+        (vec!["plot"], log()),
+        (vec!["report"], log()),
         (vec!["whatif"], [log(), vec!["--fail".into(), "governor".into()]].concat()),
         (vec!["log", "info"], log()),
         (vec!["log", "cat"], log()),

@@ -185,6 +185,8 @@ fn reading(log: &Path) -> Vec<(&'static str, Said, bool)> {
         ("verify", tiltrotor(&["verify", log]), true),
         ("summary", tiltrotor(&["log", "summary", log]), true),
         ("replay", tiltrotor(&replay), true),
+        ("plot", tiltrotor(&["plot", log, "--figure", "plan", "--force"]), true),
+        ("report", tiltrotor(&["report", log, "--compact", "--force"]), true),
         ("info", tiltrotor(&["log", "info", log]), false),
         ("cat", tiltrotor(&["log", "cat", log, "--channel", "timing"]), false),
         ("export", tiltrotor(&["log", "export", log, "--csv", &tables]), false),

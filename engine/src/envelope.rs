@@ -17,6 +17,10 @@ use crate::controls::FLAP_DETENT_LAST;
 use crate::math::min;
 use crate::table::Table1;
 
+/// Not higher than this above the ground the corridor is not asked for, m: what the wing does there is the
+/// ground's affair.
+pub const CORRIDOR_HEIGHT_M: f64 = 5.0;
+
 /// Where the aircraft is flown, and where the model holds.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

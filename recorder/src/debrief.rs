@@ -3,15 +3,12 @@
 
 use std::fmt;
 
-use engine::envelope::Params as Envelope;
+use engine::envelope::{CORRIDOR_HEIGHT_M, Params as Envelope};
 use engine::frames::Euler;
 use engine::math::{sqrt, square};
 use engine::outputs::Validity;
 use engine::units::{FPM_PER_MPS, degrees, knots};
 use engine::{Outputs, STEP_S};
-
-/// Higher than this above its wheels' contact the aircraft flies, m: below it the corridor is not asked for.
-const FLYING_M: f64 = 5.0;
 
 /// A touchdown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -110,7 +107,7 @@ impl Debrief {
             self.flown = false;
         }
         self.validity |= outputs.validity;
-        let flying = !now.on_wheels && outputs.height_above_ground_m > FLYING_M;
+        let flying = !now.on_wheels && outputs.height_above_ground_m > CORRIDOR_HEIGHT_M;
         let (tilt_rad, cas_mps) =
             (outputs.actuators.mast_tilt_rad.mean(), outputs.calibrated_airspeed_mps);
         let outside_mps = -envelope.corridor.margin_mps(tilt_rad, cas_mps);

@@ -5,6 +5,7 @@ pub mod compare;
 mod diagnosis;
 mod diff;
 mod divergence;
+pub mod figures;
 pub mod growth;
 pub mod identify;
 pub mod judgement;

@@ -77,6 +77,12 @@ impl Gathered {
         self.before = Some(*state);
     }
 
+    /// Least and greatest value of everything that is read: its name, its unit, both.
+    pub fn extremes(&self) -> impl Iterator<Item = (&'static str, &'static str, At, At)> {
+        let read = READINGS.iter().zip(&self.extremes);
+        read.map(|((name, unit, _), (least, greatest))| (*name, *unit, *least, *greatest))
+    }
+
     /// Adds a tick.
     pub fn add(&mut self, state: &State, outputs: &Outputs) {
         let first = self.extremes.is_empty();
@@ -184,7 +190,7 @@ impl fmt::Display for Summary {
         for remark in &self.remarks {
             writeln!(f, "{:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words)?;
         }
-        for ((name, unit, _), (least, greatest)) in READINGS.iter().zip(&self.gathered.extremes) {
+        for (name, unit, least, greatest) in self.gathered.extremes() {
             writeln!(
                 f,
                 "{name:<14} {:>10.3} {unit} at {:.3} s to {:.3} {unit} at {:.3} s",

@@ -1,0 +1,131 @@
+//! The conversion corridor, and how the flight went through it.
+
+use chart::page::Anchor;
+use chart::plane::{Area, Label, Plane};
+use chart::{Colour, Curve, Pen};
+use engine::units::{degrees, knots};
+
+use super::flight::{Flight, Row};
+use super::list::Figure;
+use super::look;
+
+/// The corridor's inside.
+const INSIDE: Colour = Colour(0xE3, 0xEF, 0xE6);
+/// Steps of a limit between two corners: its corners are all there is, but the stops lie between some.
+const CORNERS: usize = 64;
+
+/// Airspeed over nacelle incidence, as pilots' charts have it.
+pub fn plane(flights: &[&Flight]) -> Plane {
+    let limits = flights.first().map_or_else(Limits::default, |flight| Limits::of(flight));
+    let mut curves = limits.curves();
+    let mut outside = Vec::new();
+    for (of, flight) in flights.iter().enumerate() {
+        let mut pen = look::pen(of, false);
+        pen.width = 1.5;
+        curves.push(Curve::line(track_name(flights, of), pen, track(flight, |_| true)));
+        let beyond = |row: &Row| row.flying && margin_kt(flight, row) < 0.0;
+        outside.push(Curve::line(
+            "outside the corridor",
+            Pen::solid(look::ALARM, 2.4),
+            track(flight, beyond),
+        ));
+    }
+    outside.retain(|curve| curve.points.iter().any(|point| point[0].is_finite()));
+    curves.extend(outside);
+    let places = flights.iter().map(|flight| {
+        let (chosen, _) = flight.moments();
+        chosen.into_iter().filter_map(|moment| flight.row_at(moment.tick)).map(point).collect()
+    });
+    Plane {
+        title: Figure::Corridor.facts().words.into(),
+        subtitle: look::subtitle(flights, "limits of the aircraft's file, level flight"),
+        axes: [
+            "Calibrated airspeed, kt".into(),
+            "Nacelle incidence, deg (90 helicopter, 0 aeroplane)".into(),
+        ],
+        equal: false,
+        least: [40.0, 20.0],
+        with: vec![[0.0, 0.0]],
+        upright: Some((-6.0, 102.0)),
+        areas: vec![Area { edge: limits.edge(), colour: INSIDE, ink: 1.0 }],
+        labels: limits.labels(),
+        curves,
+        places: places.collect(),
+        moments: look::moments(flights),
+    }
+}
+
+fn track_name(flights: &[&Flight], of: usize) -> String {
+    if flights.len() > 1 { flights[of].name.clone() } else { "flown".into() }
+}
+
+fn point(row: &Row) -> [f64; 2] {
+    [knots(row.calibrated_airspeed_mps), row.incidence_deg]
+}
+
+/// How far inside the corridor, kt; negative outside.
+fn margin_kt(flight: &Flight, row: &Row) -> f64 {
+    let tilt_rad = engine::units::radians(90.0 - row.incidence_deg);
+    knots(flight.corridor.margin_mps(tilt_rad, row.calibrated_airspeed_mps))
+}
+
+/// The track where it is wanted; elsewhere it is broken.
+fn track(flight: &Flight, wanted: impl Fn(&Row) -> bool) -> Vec<[f64; 2]> {
+    let point = |row: &Row| if wanted(row) { point(row) } else { [f64::NAN, f64::NAN] };
+    flight.rows.iter().map(point).collect()
+}
+
+/// Both limits, from stop to stop: airspeed in kt, incidence in deg.
+#[derive(Default)]
+struct Limits {
+    slowest: Vec<[f64; 2]>,
+    fastest: Vec<[f64; 2]>,
+}
+
+impl Limits {
+    fn of(flight: &Flight) -> Self {
+        let (least_rad, greatest_rad) = flight.mast_tilt_rad;
+        let between = |tilt_rad: &f64| *tilt_rad > least_rad && *tilt_rad < greatest_rad;
+        let mut tilts_rad = vec![least_rad];
+        tilts_rad.extend(flight.corridor.corners_rad().take(CORNERS).filter(between));
+        tilts_rad.push(greatest_rad);
+        let at = |limit: &dyn Fn(f64) -> f64| {
+            let point = |&tilt_rad: &f64| [knots(limit(tilt_rad)), 90.0 - degrees(tilt_rad)];
+            tilts_rad.iter().map(point).collect()
+        };
+        Self {
+            slowest: at(&|tilt_rad| flight.corridor.slowest_mps(tilt_rad)),
+            fastest: at(&|tilt_rad| flight.corridor.fastest_mps(tilt_rad)),
+        }
+    }
+
+    fn edge(&self) -> Vec<[f64; 2]> {
+        self.slowest.iter().chain(self.fastest.iter().rev()).copied().collect()
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        let pen = Pen::solid(look::LIMIT, 1.2);
+        // Where there is no slowest speed there is no line.
+        let slow = |point: &[f64; 2]| if point[0] > 0.0 { *point } else { [f64::NAN; 2] };
+        vec![
+            Curve::line("limits", pen, self.slowest.iter().map(slow).collect()),
+            Curve::line("limits", pen, self.fastest.clone()),
+        ]
+    }
+
+    fn labels(&self) -> Vec<Label> {
+        let middle = self.fastest.get(self.fastest.len() / 2);
+        let label = |point: &[f64; 2]| Label {
+            at: [point[0] + 3.0, point[1] + 2.0],
+            words: "rotor and mast loads".into(),
+            anchor: Anchor::Start,
+        };
+        let slowest: Vec<_> = self.slowest.iter().filter(|point| point[0] > 0.0).collect();
+        let slow = slowest.get(slowest.len() / 2).map(|point| Label {
+            at: [point[0] - 4.0, point[1] - 2.0],
+            words: "wing stall".into(),
+            anchor: Anchor::End,
+        });
+        middle.map(label).into_iter().chain(slow).collect()
+    }
+}

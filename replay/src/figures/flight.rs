@@ -1,0 +1,381 @@
+//! What figures are drawn from: rows of numbers, times of ticks, and what happened.
+
+use std::path::Path;
+
+use engine::aircraft::Params as Aircraft;
+use engine::envelope::{CORRIDOR_HEIGHT_M, Corridor};
+use engine::frames::{Ned, Vec3};
+use engine::math::{TAU, max, wrap_angle};
+use engine::pair::Pair;
+use engine::units::degrees;
+use engine::{Outputs, STEP_NS, STEP_S};
+use logs::FlightReader;
+use logs::records::{Happening, TimingRecord};
+use logs::view::Level;
+
+use crate::judgement::{Judgement, Outcome};
+
+/// Of this many ticks one is a row: 50 Hz.
+const TICKS_PER_ROW: u64 = 5;
+const ROW_S: f64 = TICKS_PER_ROW as f64 * STEP_S;
+/// So many moments are numbered in a figure.
+const MOMENTS_MAX: usize = 16;
+
+/// How the nacelles stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Configuration {
+    /// Up.
+    Helicopter,
+    /// Between.
+    Converting,
+    /// On the down stop.
+    Aeroplane,
+}
+
+impl Configuration {
+    /// That of a nacelle incidence, deg: 90 as a helicopter.
+    fn of(incidence_deg: f64) -> Self {
+        match incidence_deg {
+            incidence_deg if incidence_deg > 85.0 => Self::Helicopter,
+            incidence_deg if incidence_deg > 1.0 => Self::Converting,
+            _ => Self::Aeroplane,
+        }
+    }
+
+    /// In a word.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Helicopter => "helicopter",
+            Self::Converting => "conversion",
+            Self::Aeroplane => "aeroplane",
+        }
+    }
+}
+
+/// What is drawn of a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Since the beginning of the flight.
+    pub time_s: f64,
+    /// From the origin.
+    pub position_m: Vec3<Ned>,
+    /// Centre of gravity over the ground.
+    pub height_m: f64,
+    /// Over the ground.
+    pub velocity_mps: Vec3<Ned>,
+    /// φ, θ.
+    pub roll_rad: f64,
+    /// θ.
+    pub pitch_rad: f64,
+    /// ψ without jumps: beyond a whole turn it goes on.
+    pub heading_rad: f64,
+    /// True airspeed.
+    pub airspeed_mps: f64,
+    /// Calibrated airspeed.
+    pub calibrated_airspeed_mps: f64,
+    /// n.
+    pub load_factor: f64,
+    /// 90 as a helicopter.
+    pub incidence_deg: f64,
+    /// Aft.
+    pub stick_aft_norm: f64,
+    /// Right.
+    pub stick_right_norm: f64,
+    /// Right.
+    pub pedal_right_norm: f64,
+    /// Power lever.
+    pub lever_norm: f64,
+    /// δe, trailing edge down.
+    pub elevator_rad: f64,
+    /// δf, down.
+    pub flap_rad: f64,
+    /// θ¾.
+    pub collective_rad: Pair<f64>,
+    /// T.
+    pub thrust_n: Pair<f64>,
+    /// Q.
+    pub torque_n_m: Pair<f64>,
+    /// a1.
+    pub flapping_aft_rad: Pair<f64>,
+    /// Ω.
+    pub rotor_speed_radps: f64,
+    /// Of each engine.
+    pub power_w: Pair<f64>,
+    /// Whether the corridor is asked for.
+    pub flying: bool,
+}
+
+impl Row {
+    fn of(outputs: &Outputs, heading_rad: f64) -> Self {
+        let (o, cockpit, actuators) = (outputs, &outputs.cockpit, &outputs.actuators);
+        let on_wheels = o.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
+        Self {
+            time_s: o.tick as f64 * STEP_S,
+            position_m: o.position_m,
+            height_m: o.height_above_ground_m,
+            velocity_mps: o.velocity_mps,
+            roll_rad: o.euler.roll_rad,
+            pitch_rad: o.euler.pitch_rad,
+            heading_rad,
+            airspeed_mps: o.airspeed_mps,
+            calibrated_airspeed_mps: o.calibrated_airspeed_mps,
+            load_factor: o.load_factor,
+            incidence_deg: 90.0 - degrees(actuators.mast_tilt_rad.mean()),
+            stick_aft_norm: cockpit.stick_aft_norm,
+            stick_right_norm: cockpit.stick_right_norm,
+            pedal_right_norm: cockpit.pedal_right_norm,
+            lever_norm: cockpit.collective_norm,
+            elevator_rad: actuators.elevator_rad,
+            flap_rad: actuators.flap_rad,
+            collective_rad: actuators.collective_rad,
+            thrust_n: o.rotors.map(|rotor| rotor.thrust_n),
+            torque_n_m: o.rotors.map(|rotor| rotor.torque_n_m),
+            flapping_aft_rad: o.rotors.map(|rotor| rotor.tilt_aft_rad),
+            rotor_speed_radps: o.rotor_speed_radps,
+            power_w: o.engines.power_w,
+            flying: !on_wheels && o.height_above_ground_m > CORRIDOR_HEIGHT_M,
+        }
+    }
+
+    /// How the nacelles stand.
+    pub fn configuration(&self) -> Configuration {
+        Configuration::of(self.incidence_deg)
+    }
+}
+
+/// How a tick kept time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StepTime {
+    /// Which.
+    pub tick: u64,
+    /// From when it was due until its picture was on its way: lateness included.
+    pub sent_ns: u64,
+    /// The step alone.
+    pub step_ns: u64,
+    /// From the kernel's time of its oldest device event until the picture was on its way; 0 without one.
+    pub latency_ns: u64,
+}
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Happened {
+    /// When.
+    pub tick: u64,
+    /// What, where it is known.
+    pub what: Option<Happening>,
+    /// How grave.
+    pub level: Level,
+    /// In words.
+    pub words: String,
+}
+
+impl Happened {
+    /// The part of the words that a figure has room for.
+    pub fn short(&self) -> &str {
+        self.words.split([',', ';', '(']).next().unwrap_or_default().trim_end()
+    }
+
+    /// How little it matters where there is no room for all; phases of a pilot model tell what is meant to
+    /// be done, not what happened.
+    fn rank(&self) -> u8 {
+        match (self.level, self.what) {
+            (Level::Error, _) => 0,
+            (_, Some(Happening::Impact | Happening::Failures | Happening::GaveUp)) => 1,
+            (_, Some(Happening::WeightOnWheels | Happening::Marker)) => 2,
+            (Level::Warn, _) => 3,
+            (_, Some(Happening::Phase)) => 5,
+            _ => 4,
+        }
+    }
+}
+
+/// A flight, ready to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flight {
+    /// What its log is called.
+    pub name: String,
+    /// What the log is, where it is not exact: no figure is shown without it.
+    pub caveat: Option<String>,
+    /// Rows, 50 a second.
+    pub rows: Vec<Row>,
+    /// Times of every tick that the log has them of.
+    pub times: Vec<StepTime>,
+    /// Whether anything waited for the clock.
+    pub in_real_time: bool,
+    /// What happened, in order.
+    pub happened: Vec<Happened>,
+    /// The aircraft's conversion corridor.
+    pub corridor: Corridor,
+    /// Mast tilts at the stops.
+    pub mast_tilt_rad: (f64, f64),
+}
+
+impl Flight {
+    /// The happenings that are numbered, in order, and how many are not.
+    pub fn moments(&self) -> (Vec<&Happened>, usize) {
+        let mut order: Vec<usize> = (0..self.happened.len()).collect();
+        // Stable: of those that matter alike, the earlier ones.
+        order.sort_by_key(|&place| self.happened[place].rank());
+        order.truncate(MOMENTS_MAX);
+        order.sort_unstable();
+        let chosen: Vec<_> = order.into_iter().map(|place| &self.happened[place]).collect();
+        let left = self.happened.len() - chosen.len();
+        (chosen, left)
+    }
+
+    /// The row at a tick, or the first one after it.
+    pub fn row_at(&self, tick: u64) -> Option<&Row> {
+        let time_s = tick as f64 * STEP_S - 0.5 * STEP_S;
+        let place = self.rows.partition_point(|row| row.time_s < time_s);
+        self.rows.get(place).or(self.rows.last())
+    }
+
+    /// From when to when, s.
+    pub fn range_s(&self) -> (f64, f64) {
+        match (self.rows.first(), self.rows.last()) {
+            // Before the first row a flight begins.
+            (Some(first), Some(last)) => (max(first.time_s - ROW_S, 0.0), last.time_s),
+            _ => (0.0, 0.0),
+        }
+    }
+
+    /// Stretches of the same configuration: which, and from which row to which.
+    pub fn stretches(&self) -> Vec<(Configuration, usize, usize)> {
+        let mut stretches: Vec<(Configuration, usize, usize)> = Vec::new();
+        for (place, row) in self.rows.iter().enumerate() {
+            match stretches.last_mut() {
+                Some((known, _, last)) if *known == row.configuration() => *last = place,
+                Some((_, _, last)) => {
+                    // Up to where the next one begins.
+                    *last = place;
+                    stretches.push((row.configuration(), place, place));
+                }
+                None => stretches.push((row.configuration(), place, place)),
+            }
+        }
+        stretches
+    }
+}
+
+/// Gathers a flight while it is reflown.
+pub struct Gatherer {
+    flight: Flight,
+    heading_rad: Option<f64>,
+}
+
+impl Gatherer {
+    /// Of a log and its aircraft, nothing yet.
+    pub fn new(log: &Path, aircraft: &Aircraft) -> Self {
+        let name = log.file_name().map_or_else(String::new, |name| name.display().to_string());
+        let tilt = &aircraft.actuators;
+        let flight = Flight {
+            name,
+            caveat: None,
+            rows: Vec::new(),
+            times: Vec::new(),
+            in_real_time: false,
+            happened: Vec::new(),
+            corridor: aircraft.envelope.corridor.clone(),
+            mast_tilt_rad: (tilt.mast_tilt_rad_min, tilt.mast_tilt_rad_max),
+        };
+        Self { flight, heading_rad: None }
+    }
+
+    /// Adds what could be observed after a tick.
+    pub fn add(&mut self, outputs: &Outputs) {
+        let heading_rad = outputs.euler.heading_rad;
+        let continued = match self.heading_rad {
+            Some(before) => before + wrap_angle(heading_rad - before),
+            None => heading_rad.rem_euclid(TAU),
+        };
+        self.heading_rad = Some(continued);
+        if outputs.tick.is_multiple_of(TICKS_PER_ROW) {
+            self.flight.rows.push(Row::of(outputs, continued));
+        }
+    }
+
+    /// Adds how a tick kept time.
+    pub fn time(&mut self, timing: &TimingRecord) {
+        self.flight.in_real_time |= timing.late_ns > 0;
+        self.flight.times.push(StepTime {
+            tick: timing.tick,
+            // A log may hold any number.
+            sent_ns: timing.late_ns.saturating_add(timing.sent_ns),
+            step_ns: timing.step_ns,
+            latency_ns: timing.latency_ns,
+        });
+    }
+
+    /// Adds what the log tells in words and what it is, and ends.
+    pub fn finish(mut self, reader: &FlightReader, judgement: &Judgement) -> Flight {
+        let exact = judgement.outcome == Outcome::Exact;
+        self.flight.caveat = (!exact).then(|| judgement.words.clone());
+        let told = reader.happenings.len() == reader.remarks.len();
+        self.flight.happened = reader
+            .remarks
+            .iter()
+            .enumerate()
+            .map(|(place, remark)| Happened {
+                tick: remark.time_ns / STEP_NS,
+                // Each event is written with its words behind it.
+                what: reader
+                    .happenings
+                    .get(place)
+                    .filter(|_| told)
+                    .and_then(|event| Happening::from_u64(event.kind)),
+                level: remark.level,
+                words: remark.words.clone(),
+            })
+            .collect();
+        self.flight
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn happened(tick: u64, what: Happening, level: Level) -> Happened {
+        Happened { tick, what: Some(what), level, words: format!("event at {tick}") }
+    }
+
+    fn flight() -> Flight {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        Gatherer::new(Path::new("/a/flight.mcap"), &xv15).flight
+    }
+
+    #[test]
+    fn what_is_grave_is_numbered_however_much_happens() {
+        let mut flight = flight();
+        flight.happened =
+            (0..40).map(|tick| happened(tick, Happening::Phase, Level::Info)).collect();
+        flight.happened.push(happened(50, Happening::Impact, Level::Error));
+        flight.happened.push(happened(60, Happening::Wind, Level::Info));
+        let (moments, left) = flight.moments();
+        assert_eq!((moments.len(), left), (MOMENTS_MAX, 42 - MOMENTS_MAX));
+        assert!(moments.iter().any(|moment| moment.tick == 50));
+        assert!(moments.iter().any(|moment| moment.tick == 60));
+        assert!(moments.is_sorted_by_key(|moment| moment.tick));
+    }
+
+    #[test]
+    fn a_heading_goes_on_beyond_a_whole_turn() {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let mut gatherer = Gatherer::new(Path::new("flight.mcap"), &xv15);
+        for step in 0..100_u32 {
+            let mut outputs = Outputs { tick: 5 * u64::from(step), ..Outputs::default() };
+            outputs.euler.heading_rad = wrap_angle(0.1 * f64::from(step));
+            gatherer.add(&outputs);
+        }
+        let headings: Vec<_> = gatherer.flight.rows.iter().map(|row| row.heading_rad).collect();
+        assert!(headings.is_sorted(), "{headings:?}");
+        assert!((headings[99] - 9.9).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_figure_has_room_for_the_first_words() {
+        let mut told = happened(1, Happening::WeightOnWheels, Level::Info);
+        told.words = "lift-off, climbing 0.03 m/s at 0.01 m/s over the ground".into();
+        assert_eq!(told.short(), "lift-off");
+    }
+}
