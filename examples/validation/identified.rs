@@ -85,7 +85,7 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
          Frequencies are within 1 % of those named; at .3 rad/s resolution takes 1.3 dB in hover. That identified and linearised responses agree \
          within 1 dB and 5 deg is a test of its own (`tests/identify.rs`).",
     );
-    let hover = "airspeed_kt = 0.0\naltitude_ft = 1000.0\nflap_detent = 2";
+    let hover = "mast_tilt_deg = 0.0\nairspeed_kt = 0.0\naltitude_ft = 1000.0\nflap_detent = 2";
     rows(&mut case, "hover q/δe", aircraft, hover, &HOVER_PITCH);
     let cruise = format!(
         "mast_tilt_deg = 90.0\nairspeed_kt = {:?}\naltitude_ft = 8000.0\nflap_detent = 0\n\
