@@ -120,7 +120,13 @@ pub fn run(args: &Args) -> Result<Status> {
     if args.format == Format::Json {
         say!("{:#}", serde_json::Value::from(objects));
     }
-    Ok(match messages.ending() {
+    Ok(ended(&messages, args))
+}
+
+/// How the log ends, said and as a status.
+fn ended(messages: &Messages, args: &Args) -> Status {
+    let name = args.log.display();
+    match messages.ending() {
         Ending::Closed => Status::Done,
         Ending::Truncated => {
             complain!("tiltrotor: {name}: it ends without having been closed");
@@ -130,7 +136,7 @@ pub fn run(args: &Args) -> Result<Status> {
             complain!("tiltrotor: {name}: damaged: {why}");
             Status::Unusable
         }
-    })
+    }
 }
 
 /// What today's structs say of the numbers of a channel, by their paths.

@@ -20,8 +20,7 @@ pub fn plane(flights: &[&Flight]) -> Plane {
     let mut curves = limits.curves();
     let mut outside = Vec::new();
     for (of, flight) in flights.iter().enumerate() {
-        let mut pen = look::pen(of, false);
-        pen.width = 1.5;
+        let pen = look::pen(of, flights.len() == 1, false);
         curves.push(Curve::line(track_name(flights, of), pen, track(flight, |_| true)));
         let beyond = |row: &Row| row.flying && margin_kt(flight, row) < 0.0;
         outside.push(Curve::line(

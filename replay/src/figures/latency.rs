@@ -35,7 +35,7 @@ pub fn stack(flights: &[&Flight]) -> Result<Stack, Undrawn> {
         if !points.is_empty() {
             let look = Look::Dots(look::FLIGHTS[of.min(1)], 0.7);
             let name = look::name(flights, of, "each input of hardware");
-            hands.curves.push(Curve { name, look, points: thinned(points) });
+            hands.curves.push(Curve { name, look, points: thinned(&points) });
         }
     }
     let allowed = Guide {
@@ -112,7 +112,7 @@ fn curves(flights: &[&Flight], of: usize, ns: fn(&StepTime) -> u64) -> Vec<Curve
 }
 
 /// As many dots as can be told apart: of those in a row the longest.
-fn thinned(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let row = points.len().div_ceil(10 * COLUMNS).max(1);
     let longest = |row: &[[f64; 2]]| row.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]));
     points.chunks(row).filter_map(longest).collect()

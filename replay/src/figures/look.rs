@@ -19,15 +19,24 @@ pub const LIMIT: Colour = Colour(0x8A, 0x8A, 0x8A);
 const WIDTH: f64 = 1.15;
 
 /// The pen of a curve: of the only flight, or of one of two.
-pub fn pen(of: usize, second: bool) -> Pen {
+pub fn pen(of: usize, alone: bool, second: bool) -> Pen {
     let dash = if second { Dash::Dashed } else { Dash::Solid };
-    Pen { colour: FLIGHTS[of.min(1)], width: WIDTH, dash }
+    Pen { colour: FLIGHTS[of.min(1)], width: width(of, alone), dash }
+}
+
+/// Of two flights the second is drawn within the first: where they are the same, both are seen.
+fn width(of: usize, alone: bool) -> f64 {
+    match (alone, of) {
+        (true, _) => WIDTH,
+        (false, 0) => 2.2 * WIDTH,
+        (false, _) => 0.8 * WIDTH,
+    }
 }
 
 /// The pen of a side of the only flight; of two, sides are told apart by their dashes.
 pub fn side_pen(of: usize, alone: bool, right: bool) -> Pen {
     let colour = if alone { SIDES[usize::from(right)] } else { FLIGHTS[of.min(1)] };
-    Pen { colour, width: WIDTH, dash: if right { Dash::Dashed } else { Dash::Solid } }
+    Pen { colour, width: width(of, alone), dash: if right { Dash::Dashed } else { Dash::Solid } }
 }
 
 /// Colour of a configuration, for a line.

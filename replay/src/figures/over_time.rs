@@ -184,10 +184,10 @@ fn panel(shown: &Shown, flights: &[&Flight]) -> Panel {
             curves.push(Curve::line(look::name(flights, of, words), pen, points(read)));
         };
         match shown.quantity {
-            One(read) => add("", look::pen(of, false), read),
+            One(read) => add("", look::pen(of, alone, false), read),
             Two(two) => {
                 for (second, (words, read)) in two.into_iter().enumerate() {
-                    add(words, look::pen(of, second == 1), read);
+                    add(words, look::pen(of, alone, second == 1), read);
                 }
             }
             Sides(left, right) => {

@@ -29,7 +29,7 @@ fn pieces<T>(
     let flight = flights[of];
     if flights.len() > 1 {
         let points = flight.rows.iter().map(place).collect();
-        return vec![(flight.name.clone(), look::pen(of, false), points)];
+        return vec![(flight.name.clone(), look::pen(of, false, false), points)];
     }
     let piece = |(configuration, first, last): (Configuration, usize, usize)| {
         let points = flight.rows[first..=last].iter().map(&place).collect();
