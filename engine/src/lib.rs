@@ -60,7 +60,7 @@ pub const STEP_S: f64 = 0.004;
 pub const STEP_NS: u64 = 4_000_000;
 
 /// Names the motion: logs flown under another version are not expected to refly to the same bits.
-pub const MODEL_VERSION: &str = "3";
+pub const MODEL_VERSION: &str = "4";
 
 /// Standard gravity, m/s².
 pub const GRAVITY_MPS2: f64 = 9.806_65;

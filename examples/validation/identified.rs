@@ -72,10 +72,10 @@ fn rows(case: &mut Case, name: &str, aircraft: &Aircraft, steady: &str, publishe
     }
 }
 
-/// Case 22.
+/// Case 26.
 pub fn responses(aircraft: &Aircraft, book: &mut Book) {
     let mut case = Case::new(
-        22,
+        26,
         Class::A,
         "the frequency responses of case 9 as flight test has them: swept and identified",
         "Identified in flight, NASA TM-89428, as in case 9.",

@@ -110,6 +110,7 @@ impl Point {
             cyclic_forward_rad: 0.0,
             cyclic_outboard_rad: 0.0,
             hub_height_m: 1e9,
+            other_induced_mps: 0.0,
         };
         let blade = params.blade();
         let (mut state, mut out) = (State::default(), Outputs::default());

@@ -48,9 +48,6 @@ pub fn run(args: &Args) -> Result<Status> {
     if args.window.is_whole() && args.as_golden.is_none() {
         bail!("which part? give --from, --until or --around");
     }
-    if args.window.is_whole() {
-        bail!("which part? give --from, --until or --around");
-    }
     let window = args.window.of(&args.log)?;
     let Some(name) = &args.as_golden else {
         let stem = args.log.file_stem().unwrap_or_default().display().to_string();
