@@ -113,7 +113,7 @@ fn a_flight_without_a_sweep_is_refused_in_words() {
     };
     asked(&["--input", "stick_aft", "--low", "0.3"])
         .says("the record is too short: 12 s, and 0.30 rad/s takes 251 s");
-    asked(&["--input", "pedal_right", "--low", "7"])
+    asked(&["--input", "stick_right", "--low", "7"])
         .says("the input is not swept between 7.00 and 12.00 rad/s");
     asked(&["--input", "throttle"]).says("`throttle` is no signal: there are stick_aft");
     fs::remove_dir_all(place).expect("our own folder");

@@ -51,12 +51,12 @@ enum Kind {
 }
 
 const RECORDED: [Recorded; 6] = [
-    Recorded { kind: Kind::Flown, first: 0x17a8_ce8b_9d2b_4d18, all: 0xe172_2d01_567d_16cf },
-    Recorded { kind: Kind::Envelope, first: 0x037c_a224_ecf7_26cb, all: 0x7108_7719_4fd1_46ee },
-    Recorded { kind: Kind::Stalled, first: 0xebaf_bc9b_fae8_1436, all: 0xd7b3_e874_d4a9_dc04 },
-    Recorded { kind: Kind::Zeros, first: 0xb735_0593_05d9_5b4d, all: 0x6b37_7d2d_eb60_4ab3 },
-    Recorded { kind: Kind::Beyond, first: 0xc00a_7755_a10d_e3b9, all: 0x6ba9_5f4b_36a1_2f41 },
-    Recorded { kind: Kind::Broken, first: 0x652a_eab1_48aa_ea8a, all: 0xb3e2_26a3_c076_7168 },
+    Recorded { kind: Kind::Flown, first: 0xaf9c_499e_3d7c_dca8, all: 0x4ae0_b6d9_e5b2_2429 },
+    Recorded { kind: Kind::Envelope, first: 0x35d3_6fb8_d8be_6fe2, all: 0x8f3d_fa6e_74be_1429 },
+    Recorded { kind: Kind::Stalled, first: 0x75b9_19ad_279a_a9ba, all: 0xad59_8077_1bd8_7983 },
+    Recorded { kind: Kind::Zeros, first: 0x818c_76cc_0233_4ae3, all: 0xac52_1704_c75c_c329 },
+    Recorded { kind: Kind::Beyond, first: 0xd385_78a6_7443_0315, all: 0x1c2b_ce09_bdd2_3a8c },
+    Recorded { kind: Kind::Broken, first: 0xbce2_98f3_d788_583d, all: 0xf15a_f719_84a0_03c5 },
 ];
 
 /// The bits of what has been seen so far (FNV-1a, by words of eight bytes).

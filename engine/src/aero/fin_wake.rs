@@ -4,7 +4,7 @@
 //! ```text
 //! V_V = c·v·(R/r)²·n        c: mean over the fin's height of what stands in the wake, 0 … 1
 //! ```
-//! r/R, and where the wake goes, are those of [`wake_footprint`](super::wake_footprint); by continuity
+//! r/R, and where the wake goes, are those of [`wake_course`](super::wake_course); by continuity
 //! the air in it goes as much faster as it has grown narrower.
 //! # Signs
 //! The component's velocity through the wake, as in [`rotor_wake`](super::rotor_wake): along the thrust.
@@ -18,7 +18,7 @@
 //! In hover and slow flight the wake passes under the fin; it comes up to it between 60 and 80 kt as a
 //! helicopter, and its inner edge is no further in than the fin, which is mostly outside.
 
-use super::wake_footprint::{EDGE_NORM, Passing, SLOWEST, Stream, axes, contracted};
+use super::wake_course::{EDGE_NORM, Passing, SLOWEST, Stream, axes, contracted};
 use crate::frames::{Body, Structural, Vec3};
 use crate::lanes::Lanes;
 use crate::mast::TiltedMast;

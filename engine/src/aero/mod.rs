@@ -7,6 +7,7 @@ pub mod horizontal_stabilizer;
 pub mod polar;
 pub mod rotor_wake;
 pub mod vertical_stabilizers;
+mod wake_course;
 pub mod wake_footprint;
 pub mod wing_pylon;
 
