@@ -168,6 +168,15 @@ pub fn derivatives(aircraft: &Aircraft, book: &mut Book) {
          Aeroplane at 180 KCAS, 8,000 ft: the numbers estimated by hand from the reference's tables leave the rotors \
          out, which here add to N_r, to roll damping and take from N_β; ±50 %.",
     );
+    fins(&mut case, aircraft);
+    rotors(&mut case, aircraft);
+    growth(&mut case, aircraft);
+    cruise(&mut case, aircraft);
+    book.add(case);
+}
+
+/// Yaw damping of the fins.
+fn fins(case: &mut Case, aircraft: &Aircraft) {
     let no_fins = aircraft.clone().with(|a| a.vertical_stabilizers.area_m2 = 1e-9);
     let izz = aircraft.weight_balance.inertia.zz_kg_m2;
     for (speed_kt, eta) in [(40.0, 1.78), (60.0, 1.54)] {
@@ -196,33 +205,25 @@ pub fn derivatives(aircraft: &Aircraft, book: &mut Book) {
         )
         .class(Class::Own);
     }
+}
+
+/// What one rotor's wake does to the other.
+fn rotors(case: &mut Case, aircraft: &Aircraft) {
     let alone = aircraft.clone().with(|a| {
         a.rotors.other_rotor.downwind.y.iter_mut().for_each(|x| *x = 0.0);
     });
     let (whole, without) =
         (flight(aircraft, &Target::default()), flight(&alone, &Target::default()));
-    let closed = of(&whole, |flight| rotor_on_rotor(aircraft, &flight.trim));
     let ours = part_of(&whole, &without, (ROLL_RATE, RIGHT));
-    match closed {
-        Ok(closed) => {
-            case.row(
-                "hover: L_v of rotor on rotor, rad/s² per m/s",
-                closed,
-                ours,
-                Band::Part(0.3),
-                4,
-            );
-        }
-        Err(why) => {
-            case.row(
-                "hover: L_v of rotor on rotor, rad/s² per m/s",
-                0.0,
-                Err(why),
-                Band::Part(0.3),
-                4,
-            );
-        }
-    }
+    let (closed, ours) = match of(&whole, |flight| rotor_on_rotor(aircraft, &flight.trim)) {
+        Ok(closed) => (closed, ours),
+        Err(why) => (0.0, Err(why)),
+    };
+    case.row("hover: L_v of rotor on rotor, rad/s² per m/s", closed, ours, Band::Part(0.3), 4);
+}
+
+/// How fast lateral modes grow.
+fn growth(case: &mut Case, aircraft: &Aircraft) {
     for (label, nacelle_deg, speed_kt, flap, most) in [
         ("hover", 90.0, 0.0, 2, 0.173),
         ("helicopter, 40 kt", 90.0, 40.0, 2, 0.173),
@@ -243,6 +244,10 @@ pub fn derivatives(aircraft: &Aircraft, book: &mut Book) {
             .class(Class::Own);
         }
     }
+}
+
+/// As an aeroplane.
+fn cruise(case: &mut Case, aircraft: &Aircraft) {
     let airspeed_mps = 180.0 * KNOT_MPS / engine::math::sqrt(0.786);
     let cruise = Target { airspeed_mps, altitude_m: 8000.0 * FOOT_M, ..target(0.0, 180.0, 0) };
     let cruise = flight(aircraft, &cruise);
@@ -263,7 +268,6 @@ pub fn derivatives(aircraft: &Aircraft, book: &mut Book) {
     case.row("cruise: Dutch roll ζ", 0.15, of(&dutch, Mode::damping), Band::Part(0.5), 2);
     let roll = cruise.as_ref().map_err(Clone::clone).and_then(|c| c.mode("roll subsidence"));
     case.row("cruise: roll time constant, s", 2.3, of(&roll, Mode::time_s), Band::Part(0.5), 2);
-    book.add(case);
 }
 
 /// L_v by which the rotor downwind loses thrust in hover.

@@ -89,22 +89,7 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
             } else {
                 plan.push(stop);
             }
-            let sidle = |knots: f64, back: bool, seconds: f64| {
-                let mps = knots * KNOT_MPS;
-                let (forward_mps, right_mps) = if back { (-mps, 0.0) } else { (0.0, mps) };
-                Phase::Sidle { forward_mps, right_mps, seconds }
-            };
-            let still = ("to a hover", sidle(0.0, false, 28.0));
-            plan.extend([
-                ("to the right", sidle(35.0, false, 40.0)),
-                still,
-                ("to the left", sidle(-35.0, false, 40.0)),
-                still,
-                ("rearward", sidle(20.0, true, 30.0)),
-                still,
-                ("hover", Phase::Hold { seconds: 3.0 }),
-                ("landing", Phase::Land),
-            ]);
+            plan.extend(sidling());
         }
         "demo" => {
             if on_wheels {
@@ -134,6 +119,25 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
         }
     }
     Some(plan)
+}
+
+/// To either side, rearward, and down.
+fn sidling() -> [(&'static str, Phase); 8] {
+    let sidle = |forward_kt: f64, right_kt: f64, seconds: f64| {
+        let (forward_mps, right_mps) = (forward_kt * KNOT_MPS, right_kt * KNOT_MPS);
+        Phase::Sidle { forward_mps, right_mps, seconds }
+    };
+    let still = ("to a hover", sidle(0.0, 0.0, 28.0));
+    [
+        ("to the right", sidle(0.0, 35.0, 40.0)),
+        still,
+        ("to the left", sidle(0.0, -35.0, 40.0)),
+        still,
+        ("rearward", sidle(-20.0, 0.0, 30.0)),
+        still,
+        ("hover", Phase::Hold { seconds: 3.0 }),
+        ("landing", Phase::Land),
+    ]
 }
 
 fn cruise_for(seconds: f64) -> (&'static str, Phase) {

@@ -102,6 +102,16 @@ pub struct Order {
 }
 
 impl Order {
+    /// To any side, no faster than hands would ask for.
+    fn sidle(&mut self, wanted_mps: [f64; 2]) {
+        let step_mps = SIDLE_MPS2 * HAND_S;
+        for (now, wanted) in self.sidle_mps.iter_mut().zip(wanted_mps) {
+            *now += clamp(wanted - *now, -step_mps, step_mps);
+        }
+        self.forward_mps = 0.0;
+        self.spot_m = None;
+    }
+
     /// What the flight is when it begins.
     pub fn beginning(seen: &Outputs) -> Self {
         Self {
@@ -176,12 +186,7 @@ impl Pilot {
             }
             Phase::Sweep { .. } => since_s >= sweep::length_s(),
             Phase::Sidle { forward_mps, right_mps, seconds } => {
-                let step_mps = SIDLE_MPS2 * HAND_S;
-                for (now, wanted) in order.sidle_mps.iter_mut().zip([forward_mps, right_mps]) {
-                    *now += clamp(wanted - *now, -step_mps, step_mps);
-                }
-                order.forward_mps = 0.0;
-                order.spot_m = None;
+                order.sidle([forward_mps, right_mps]);
                 since_s >= seconds
             }
             Phase::Rise { height_m: to_m, climb_mps } => {
