@@ -139,7 +139,7 @@ def mixer(sheet, data, let, table):
     """Gearing by mast tilt and airspeed, and the actuators after it, deg."""
     n = data.number
     m = "fcc.mixer."
-    table("pitch_low", "tilt", "fcc.governor.collective_deg_min")
+    table("pitch_low", "tilt", "fcc.governor.lever_bottom_deg")
     table("pitch_per_lever", "tilt", m + "collective_per_lever_deg_per_in")
     table("pitch_per_stick", "tilt", m + "collective_per_lateral_stick_deg_per_in")
     table("cyclic_per_stick", "tilt", m + "cyclic_per_longitudinal_stick_deg_per_in")
