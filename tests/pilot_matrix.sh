@@ -28,7 +28,7 @@ fly() {
     name=$1 pilot=$2
     shift 2
     # Who lands ends the flight; what has no end is given longer than any phase before it should take.
-    case $pilot in land | demo) ;; *) set -- --duration 420 "$@" ;; esac
+    case $pilot in land | demo | sideways | sweep-*) ;; *) set -- --duration 420 "$@" ;; esac
     status=0
     "$tiltrotor" fly --pilot "$pilot" --fast --force --no-flightgear "$@" \
         --out "$work/flight.mcap" >"$work/said" 2>&1 || status=$?
@@ -48,7 +48,7 @@ fly() {
     printf '%-28s %-10s %s  %6s s  %s\n' "$name" "$pilot" "$status" "$took" "$answer"
 }
 
-for pilot in hover takeoff convert turn reconvert land demo; do
+for pilot in hover takeoff convert turn reconvert land demo sideways sweep-pitch; do
     fly "runway" "$pilot"
     # nacelle, speed in kt, rotor speed in rpm
     for start in "0 180 458" "0 180 517" "0 180 589" "30 130 589" "60 100 589" "90 0 589" "90 60 589"; do
