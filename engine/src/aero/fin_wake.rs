@@ -18,11 +18,10 @@
 //! In hover and slow flight the wake passes under the fin; it comes up to it between 60 and 80 kt as a
 //! helicopter, and its inner edge is no further in than the fin, which is mostly outside.
 
-use super::wake_course::{EDGE_NORM, Passing, SLOWEST, Stream, axes, contracted};
+use super::wake_course::{Course, contracted};
 use crate::frames::{Body, Structural, Vec3};
-use crate::lanes::Lanes;
 use crate::mast::TiltedMast;
-use crate::math::{max, square};
+use crate::math::square;
 use crate::motion::Motion;
 
 /// Points over the fin's height.
@@ -49,42 +48,25 @@ pub struct Inputs {
 
 /// Velocity of the right fin through the right rotor's wake.
 pub fn evaluate(inputs: &Inputs) -> Vec3<Body> {
-    let (axis, forward) = axes(&inputs.mast);
     let (hub, radius_m) = (inputs.hub_from_cg_m, inputs.rotor_radius_m);
-    let velocity = inputs.motion.velocity_at(hub);
-    let (along_mps, ahead_mps) = (velocity.dot(axis), velocity.dot(forward));
-    let stream = Stream::new(ahead_mps.abs(), along_mps, max(0.0, inputs.induced_mps));
-    let downwind = if ahead_mps < 0.0 { -1.0 } else { 1.0 };
-    let sideways_mps = max(stream.down_mps, 0.1 * velocity.y.abs() + SLOWEST.1);
+    let course = Course::new(&inputs.motion, &inputs.mast, hub, inputs.induced_mps);
     let from_hub = inputs.centre_m.from_cg(inputs.motion.cg_m) - hub;
 
     let mut faster = 0.0;
     for i in 0..POINTS {
         let up_m = inputs.span_m * ((i as f64 + 0.5) / POINTS as f64 - 0.5);
         let point = Vec3::new(from_hub.x, from_hub.y, from_hub.z - up_m) * (1.0 / radius_m);
-        let (x, down) = (-downwind * point.dot(forward), -point.dot(axis));
-        if down <= 0.0 {
-            continue;
-        }
-        // However narrow it has grown, no part of the wake is further from the hub than this.
-        let [drift, ..] = stream.place(Lanes::from(-1.0), down, 0.0).to_array();
-        if x < -1.0 - EDGE_NORM || x > 1.0 + drift + EDGE_NORM {
+        let (ahead, down) = (point.dot(course.forward), -point.dot(course.axis));
+        if down <= 0.0 || course.is_far(ahead, down) {
             continue;
         }
         let radius = contracted(down);
-        let passing = Passing {
-            stream: &stream,
-            x,
-            down,
-            radius,
-            foremost: stream.foremost(down, radius),
-            aside: down * velocity.y / sideways_mps,
-        };
+        let passing = course.passing(ahead, down, radius);
         if passing.is_elsewhere() {
             continue;
         }
         let [covered, ..] = passing.covered(point.y.into()).to_array();
         faster += covered / square(radius);
     }
-    axis * (faster / POINTS as f64 * inputs.induced_mps)
+    course.axis * (faster / POINTS as f64 * inputs.induced_mps)
 }

@@ -20,28 +20,29 @@ use crate::frames::{Body, Vec3};
 use crate::lanes::{self, Lanes};
 use crate::mast::TiltedMast;
 use crate::math::{PI, clamp, exp, max, min, sqrt, square};
+use crate::motion::Motion;
 
 /// Half the thickness of the wake's edge, parts of the radius.
-pub(super) const EDGE_NORM: f64 = 0.05;
+const EDGE_NORM: f64 = 0.05;
 /// f.
 const ON_THE_WAY: f64 = 1.3;
 /// k at a skew of 90°.
 const GRADIENT: f64 = 15.0 * PI / 32.0;
 /// Air that hardly moves down is carried away: it is taken to move at least so, part of U and m/s.
-pub(super) const SLOWEST: (f64, f64) = (0.02, 0.03);
+const SLOWEST: (f64, f64) = (0.02, 0.03);
 
 /// The wake's air on its way, longitudinally.
-pub(super) struct Stream {
+struct Stream {
     /// |U|.
     blown_mps: f64,
     /// W + f·v.
-    pub down_mps: f64,
+    down_mps: f64,
     /// f·v·k.
     gradient_mps: f64,
 }
 
 impl Stream {
-    pub fn new(blown_mps: f64, along_mps: f64, induced_mps: f64) -> Self {
+    fn new(blown_mps: f64, along_mps: f64, induced_mps: f64) -> Self {
         let through_mps = along_mps + induced_mps;
         let total_mps = sqrt(square(blown_mps) + square(through_mps));
         // χ counts up to 90°.
@@ -54,14 +55,14 @@ impl Stream {
     }
 
     /// x(p) at `down`, parts of R, where the wake has contracted to `radius`.
-    pub fn place(&self, p: Lanes, down: f64, radius: f64) -> Lanes {
+    fn place(&self, p: Lanes, down: f64, radius: f64) -> Lanes {
         let slowest_mps = SLOWEST.0 * self.blown_mps + SLOWEST.1;
         let down_mps = lanes::max(self.down_mps + self.gradient_mps * p, slowest_mps);
         radius * p + down * self.blown_mps / down_mps
     }
 
     /// The p of the least x.
-    pub fn foremost(&self, down: f64, radius: f64) -> f64 {
+    fn foremost(&self, down: f64, radius: f64) -> f64 {
         if self.gradient_mps > 1e-9 {
             let slope_mps = sqrt(down * self.blown_mps * self.gradient_mps / radius);
             clamp((slope_mps - self.down_mps) / self.gradient_mps, -1.0, 1.0)
@@ -84,19 +85,69 @@ pub(super) fn axes(mast: &TiltedMast) -> (Vec3<Body>, Vec3<Body>) {
     (Vec3::new(s, 0.0, -c), Vec3::new(c, 0.0, s))
 }
 
+/// A rotor's wake and where it goes.
+pub(super) struct Course {
+    stream: Stream,
+    /// Along the mast.
+    pub axis: Vec3<Body>,
+    /// Forward in the disc's plane.
+    pub forward: Vec3<Body>,
+    downwind: f64,
+    sideways_mps: f64,
+    right_mps: f64,
+}
+
+impl Course {
+    /// Of a rotor whose hub is there, with its mean induced velocity.
+    pub fn new(
+        motion: &Motion,
+        mast: &TiltedMast,
+        hub_from_cg_m: Vec3<Body>,
+        induced_mps: f64,
+    ) -> Self {
+        let (axis, forward) = axes(mast);
+        let velocity = motion.velocity_at(hub_from_cg_m);
+        let (along_mps, ahead_mps) = (velocity.dot(axis), velocity.dot(forward));
+        let stream = Stream::new(ahead_mps.abs(), along_mps, max(0.0, induced_mps));
+        let sideways_mps = max(stream.down_mps, 0.1 * velocity.y.abs() + SLOWEST.1);
+        let downwind = if ahead_mps < 0.0 { -1.0 } else { 1.0 };
+        Self { stream, axis, forward, downwind, sideways_mps, right_mps: velocity.y }
+    }
+
+    /// Whether stations there are beyond any wake: however narrow it has grown, no part of it is further
+    /// from the hub than this.
+    pub fn is_far(&self, ahead: f64, down: f64) -> bool {
+        let x = -self.downwind * ahead;
+        let [drift, ..] = self.stream.place(Lanes::from(-1.0), down, 0.0).to_array();
+        x < -1.0 - EDGE_NORM || x > 1.0 + drift + EDGE_NORM
+    }
+
+    /// As it passes stations `ahead` of the hub and `down` the wake, contracted to `radius`, parts of R.
+    pub fn passing(&self, ahead: f64, down: f64, radius: f64) -> Passing<'_> {
+        Passing {
+            stream: &self.stream,
+            x: -self.downwind * ahead,
+            down,
+            radius,
+            foremost: self.stream.foremost(down, radius),
+            aside: down * self.right_mps / self.sideways_mps,
+        }
+    }
+}
+
 /// The wake as it passes stations of one height. Lengths are parts of R.
 pub(super) struct Passing<'a> {
-    pub stream: &'a Stream,
+    stream: &'a Stream,
     /// Of the stations, downwind of the hub.
-    pub x: f64,
+    x: f64,
     /// Down the wake.
-    pub down: f64,
+    down: f64,
     /// To which the wake has contracted.
-    pub radius: f64,
+    radius: f64,
     /// The p of the least x(p).
-    pub foremost: f64,
+    foremost: f64,
     /// How far the wake has shifted to the left.
-    pub aside: f64,
+    aside: f64,
 }
 
 impl Passing<'_> {

@@ -8,10 +8,10 @@
 //! Dihedral and sweep count for nothing here.
 
 use super::half_wing::{Inputs, Params};
-use super::wake_course::{Passing, SLOWEST, Stream, axes, contracted};
+use super::wake_course::{Course, axes, contracted};
 use crate::frames::{Body, Structural, Vec3};
 use crate::lanes::{LANES, Lanes};
-use crate::math::{max, square};
+use crate::math::square;
 
 /// Stations over the chord.
 pub(super) const CHORDWISE: usize = 4;
@@ -67,13 +67,8 @@ pub(super) fn footprint_of_rows(
     inputs: &Inputs,
     rows: &[Row; CHORDWISE],
 ) -> Footprint {
-    let (axis, forward) = axes(&inputs.mast);
     let hub = inputs.hub_from_cg_m;
-    let velocity = inputs.motion.velocity_at(hub);
-    let (along_mps, ahead_mps) = (velocity.dot(axis), velocity.dot(forward));
-    let stream = Stream::new(ahead_mps.abs(), along_mps, max(0.0, inputs.induced_mps));
-    let downwind = if ahead_mps < 0.0 { -1.0 } else { 1.0 };
-    let sideways_mps = max(stream.down_mps, 0.1 * velocity.y.abs() + SLOWEST.1);
+    let course = Course::new(&inputs.motion, &inputs.mast, hub, inputs.induced_mps);
 
     let (chordwise, spanwise) = (CHORDWISE as f64, SPANWISE as f64);
     let buttlines_m: [f64; SPANWISE] =
@@ -84,14 +79,7 @@ pub(super) fn footprint_of_rows(
         if down <= 0.0 {
             continue;
         }
-        let passing = Passing {
-            stream: &stream,
-            x: -downwind * ahead,
-            down,
-            radius,
-            foremost: stream.foremost(down, radius),
-            aside: down * velocity.y / sideways_mps,
-        };
+        let passing = course.passing(ahead, down, radius);
         if passing.is_elsewhere() {
             continue;
         }
