@@ -3,6 +3,7 @@
 use analysis::trim::{Target, Trim, trim};
 use engine::Aircraft;
 use engine::math::pow_positive;
+use engine::units::HORSEPOWER_W;
 
 use crate::book::{Band, Book, Case, Class, DEG, RPM_RADPS};
 use crate::fits::Fit;
@@ -39,15 +40,12 @@ const HOVERS: [Hover; 5] = [
     hover(60.0, 13_614.0, 0.9936, 588.0, 1008.0, 8.5),
 ];
 
-/// Kilowatts of a horsepower.
-const HORSEPOWER_KW: f64 = 0.7457;
-
 /// Mean deflection of flap and flaperon by their areas, 4.25 and 7.86 ft² a side, for each degree of flap: the
 /// flaperon droops by .625 of it.
 const MEAN_PER_FLAP: f64 = (4.25 + 0.625 * 7.86) / (4.25 + 7.86);
 
 impl Hover {
-    /// Where the standard atmosphere has that density, m.
+    /// Where the standard atmosphere has that density, m: ISO 2533, ρ/ρ0 = (1 − 2.25577e-5·h)^4.2561.
     fn altitude_m(&self) -> f64 {
         (1.0 - pow_positive(self.density_norm, 1.0 / 4.2561)) / 2.25577e-5
     }
@@ -84,7 +82,7 @@ pub fn by_flap(aircraft: &Aircraft, book: &mut Book) {
         let of = |f: &dyn Fn(&Trim) -> f64| found.as_ref().map(f).map_err(Clone::clone);
         let name = format!("flaps {:.0} deg", hover.full_span_deg);
         let power_kw = of(&|t| 1e-3 * t.report.power_w);
-        let published_kw = 2.0 * hover.power_hp * HORSEPOWER_KW;
+        let published_kw = 2.0 * hover.power_hp * 1e-3 * HORSEPOWER_W;
         case.row(format!("{name}: power, kW"), published_kw, power_kw, Band::Part(0.05), 0)
             .fitted(&[Fit::Recirculation]);
         let download = of(&|t| 100.0 * t.report.download_n / t.report.thrust_n.sum());

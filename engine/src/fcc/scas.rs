@@ -37,7 +37,7 @@ use crate::math::{clamp, cos, max, min, ramp, sin, wrap_angle};
 use crate::table::Table1;
 use crate::{GRAVITY_MPS2, STEP_S};
 
-/// No speed that is not the held one takes the nose further than this by itself, up or down.
+/// No speed that is not the held one takes the nose further than this by itself, up or down. An estimate.
 const BY_SPEED_RAD_MAX: f64 = 0.35;
 
 /// What the SCAS is set to.

@@ -18,8 +18,8 @@
 //! and forward. Written for the right rotor, which turns counter-clockwise seen from above; the left
 //! one is its mirror image.
 //! # Assumptions
-//! Steady between ticks; rigid in lag and torsion; the in-plane inertia of flapping blades averages out. A gimballed rotor does not pass its gyroscopic moment on:
-//! it precesses until the air turns it.
+//! Steady between ticks; rigid in lag and torsion; the in-plane inertia of flapping blades averages out. A
+//! gimballed rotor does not pass its gyroscopic moment on: it precesses until the air turns it.
 
 pub mod blade;
 pub mod elements;
