@@ -3,6 +3,7 @@
 mod cat;
 mod clip;
 mod compact;
+mod ended;
 mod export;
 mod fields;
 mod files;

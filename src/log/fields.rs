@@ -6,15 +6,16 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use engine::Outputs;
 use engine::inputs::DeviceEvent;
+use logs::Messages;
 use logs::channels::{Channel, ChannelId};
 use logs::fields::{Node, tree};
 use logs::layout::Layout;
 use logs::records::{EventRecord, InputsRecord, RestartRecord, StateRecord, TimingRecord};
 use logs::units::unit_of;
-use logs::{Ending, Messages};
 use serde_json::json;
 use wildmatch::WildMatch;
 
+use super::ended::ended;
 use crate::status::Status;
 
 /// What is said of the fields of every public struct: its name, and each field with its doc comment, in order.
@@ -120,23 +121,7 @@ pub fn run(args: &Args) -> Result<Status> {
     if args.format == Format::Json {
         say!("{:#}", serde_json::Value::from(objects));
     }
-    Ok(ended(&messages, args))
-}
-
-/// How the log ends, said and as a status.
-fn ended(messages: &Messages, args: &Args) -> Status {
-    let name = args.log.display();
-    match messages.ending() {
-        Ending::Closed => Status::Done,
-        Ending::Truncated => {
-            complain!("tiltrotor: {name}: it ends without having been closed");
-            Status::NeverClosed
-        }
-        Ending::Damaged(why) => {
-            complain!("tiltrotor: {name}: damaged: {why}");
-            Status::Unusable
-        }
-    }
+    Ok(ended(&messages, &args.log))
 }
 
 /// What today's structs say of the numbers of a channel, by their paths.

@@ -4,8 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use logs::{Ending, Messages};
+use logs::Messages;
 
+use super::ended::ended;
 use crate::console::Stdout;
 use crate::status::Status;
 
@@ -35,17 +36,7 @@ pub fn run(args: &Args) -> Result<Status> {
             }
         }
     }
-    Ok(match messages.ending() {
-        Ending::Closed => Status::Done,
-        Ending::Truncated => {
-            complain!("tiltrotor: {name}: it ends without having been closed");
-            Status::NeverClosed
-        }
-        Ending::Damaged(why) => {
-            complain!("tiltrotor: {name}: damaged: {why}");
-            Status::Unusable
-        }
-    })
+    Ok(ended(&messages, &args.log))
 }
 
 /// Prints a file, byte for byte.
