@@ -10,11 +10,7 @@ the_tiltrotor "${1:-}"
 command -v xdotool >/dev/null || apt-get install -y --no-install-recommends xdotool >/dev/null 2>&1 ||
     skip "no xdotool (Debian package xdotool)"
 start_screen 320x240
-export XDG_CACHE_HOME=$work/cache FG_HOME=$fg_home XDG_RUNTIME_DIR=$work/xdg
-export LIBGL_ALWAYS_SOFTWARE=1 ALSOFT_DRIVERS=null
-options=(--geometry=320x240 --disable-sound --disable-splash-screen --disable-random-objects
-    --disable-random-vegetation --disable-random-buildings --disable-clouds --disable-clouds3d
-    --disable-ai-models --prop:int:/sim/rendering/shaders/quality-level=0)
+small_flightgear
 log=$work/keys.mcap
 env "${mesa[@]}" "$tiltrotor" fly --flightgear-controls --no-panel --start hover-50ft --duration 600 --ground flat \
     --flightgear "127.0.0.1:$(free_port SOCK_DGRAM)" --launch-flightgear --terrasync off --hold 0 --out "$log" \

@@ -7,9 +7,5 @@ cd "$(dirname "$0")/.."
 . tests/flightgear/real.sh
 the_tiltrotor "${1:-}"
 start_screen 320x240
-export XDG_CACHE_HOME=$work/cache FG_HOME=$fg_home XDG_RUNTIME_DIR=$work/xdg
-export LIBGL_ALWAYS_SOFTWARE=1 ALSOFT_DRIVERS=null
-options=(--geometry=320x240 --disable-sound --disable-splash-screen --disable-random-objects
-    --disable-random-vegetation --disable-random-buildings --disable-clouds --disable-clouds3d
-    --disable-ai-models --prop:int:/sim/rendering/shaders/quality-level=0)
+small_flightgear
 env "${mesa[@]}" python3 tests/flightgear/scenery.py "$tiltrotor" "$work" "${options[@]}"

@@ -140,6 +140,15 @@ no_complaints() {
     fi
 }
 
+# A small and cheap FlightGear that our command starts: its arguments in `options`, its homes in the environment.
+small_flightgear() {
+    export XDG_CACHE_HOME=$work/cache FG_HOME=$fg_home XDG_RUNTIME_DIR=$work/xdg
+    export LIBGL_ALWAYS_SOFTWARE=1 ALSOFT_DRIVERS=null
+    options=(--geometry=320x240 --disable-sound --disable-splash-screen --disable-random-objects
+        --disable-random-vegetation --disable-random-buildings --disable-clouds --disable-clouds3d
+        --disable-ai-models --prop:int:/sim/rendering/shaders/quality-level=0)
+}
+
 stop() { # PROCESS
     kill "$1" 2>/dev/null || true
     wait "$1" 2>/dev/null || true
