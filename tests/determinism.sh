@@ -3,13 +3,16 @@
 # release for this very CPU with link-time optimisation, a C library that may not use AVX2 and FMA,
 # and, where qemu is installed, a CPU that has neither, and 64-bit Arm. And steady flights with what
 # `linearize` finds about them, to the same bytes.
-# Usage: tests/determinism.sh
+# Usage: tests/determinism.sh          the debug build is the tests' own; for this very CPU the flight model
+#                                      alone is built, and steps from 72,000 random states to the known bits
+#        tests/determinism.sh whole    the program for this very CPU, and one with nothing optimised: minutes more
 #        TILTROTOR_AARCH64=build tests/determinism.sh   with one for 64-bit Arm, which takes minutes: needs
 #        qemu-user, gcc-aarch64-linux-gnu, libc6-dev-arm64-cross, rustup target add aarch64-unknown-linux-gnu
 #        TILTROTOR_AARCH64=FILE                         with one that is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 headless=(--no-default-features)
+whole=${1-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -19,13 +22,22 @@ build() { # NAME, cargo's options...
     cargo build --quiet "${headless[@]}" --target-dir "target/$name" "$@"
 }
 
-echo "building: release, debug, release for this CPU with link-time optimisation"
+for_this_cpu=(env RUSTFLAGS="-C target-cpu=native" CARGO_PROFILE_RELEASE_LTO=fat)
+echo "building: release, debug${whole:+, release for this CPU with link-time optimisation}"
 build headless --release
-build headless --config profile.dev.package.engine.opt-level=0
-RUSTFLAGS="-C target-cpu=native" CARGO_PROFILE_RELEASE_LTO=fat build native --release
 release=target/headless/release/tiltrotor
-debug=target/headless/debug/tiltrotor
-native=target/native/release/tiltrotor
+if [ "$whole" = whole ]; then
+    build headless --config profile.dev.package.engine.opt-level=0
+    debug=target/headless/debug/tiltrotor
+    CARGO_TARGET_DIR=target/native "${for_this_cpu[@]}" cargo build --quiet "${headless[@]}" --release
+    native=target/native/release/tiltrotor
+else
+    cargo test --quiet --workspace --no-run 2>"$work/build.txt" || {
+        cat "$work/build.txt"
+        exit 1
+    }
+    debug=target/debug/tiltrotor
+fi
 
 "$release" demo --fast --no-flightgear --out "$work/flight.mcap" >"$work/demo.txt" || {
     cat "$work/demo.txt"
@@ -74,7 +86,18 @@ skip() {
 
 exact "release" "$release"
 exact "debug" "$debug"
-exact "release for this CPU, link-time optimised" "$native"
+if [ "$whole" = whole ]; then
+    exact "release for this CPU, link-time optimised" "$native"
+else
+    "${for_this_cpu[@]}" cargo test --quiet --release --package aircraft --test random_states \
+        --target-dir target/native >"$work/out.txt" 2>&1 || {
+        printf 'DIVERGED the flight model for this CPU, link-time optimised\n'
+        cat "$work/out.txt"
+        exit 1
+    }
+    printf 'exact    the flight model for this CPU, link-time optimised: steps from random states\n'
+    passed=$((passed + 1))
+fi
 tunables=glibc.cpu.hwcaps=-AVX2,-FMA
 exact "release, C library without AVX2 and FMA" env "GLIBC_TUNABLES=$tunables" "$release"
 exact "debug, C library without AVX2 and FMA" env "GLIBC_TUNABLES=$tunables" "$debug"
@@ -98,5 +121,9 @@ fi
 
 # The other way round: what the debug build flies, the native one reflies.
 "$debug" fly --pilot hover --fast --duration 5 --no-flightgear --force --out "$work/flight.mcap" >/dev/null
-exact "flown by debug, reflown for this CPU" "$native"
+if [ "$whole" = whole ]; then
+    exact "flown by debug, reflown for this CPU" "$native"
+else
+    exact "flown by debug, reflown by release" "$release"
+fi
 echo "$passed exact, 0 diverged, $skipped skipped"

@@ -31,7 +31,7 @@ step faults "every writing verb, with a fault or killed at every kind of system 
 step anomaly "the story of docs/anomaly.md is what the commands print" 'tests/anomaly.sh ${TILTROTOR:-}'
 step determinism "the same bits by every build and processor at hand, 64-bit Arm included" \
     'if command -v qemu-aarch64 aarch64-linux-gnu-gcc >/dev/null; then export TILTROTOR_AARCH64=build; fi
-    tests/determinism.sh'
+    tests/determinism.sh whole'
 step cross "other systems' programs" "tests/cross.sh"
 step verify-speed "how fast a log is verified" 'benches/verify_speed.sh ${TILTROTOR:-}'
 step jsbsim "a tick beside JSBSim's" "benches/jsbsim_ratio.sh"
