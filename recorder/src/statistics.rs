@@ -162,3 +162,67 @@ impl Default for Statistics {
         Self::new()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MS: u64 = 1_000_000;
+
+    /// Four ticks whose times are known: each number of the summary is the one counted by hand.
+    #[test]
+    fn four_known_ticks_add_up() {
+        let mut statistics = Statistics::new();
+        for (late_ms, step_ms, sent_ms, record_ms, overrun, slip_ms, implausible_events) in [
+            (0, 1, 2, 1, 0, 0, 0),
+            (1, 1, 2, 1, 0, 7, 2),
+            (2, 3, 4, 1, 1, 0, 0),
+            (3, 8, 10, 5, 1, 5, 1),
+        ] {
+            statistics.add(&TimingRecord {
+                late_ns: late_ms * MS,
+                step_ns: step_ms * MS,
+                sent_ns: sent_ms * MS,
+                record_ns: record_ms * MS,
+                slip_ns: slip_ms * MS,
+                overrun,
+                implausible_events,
+                ..TimingRecord::default()
+            });
+        }
+        assert_eq!((statistics.ticks, statistics.overruns), (4, 2));
+        assert_eq!(
+            (statistics.slips, statistics.slip_ns_max, statistics.slip_ns),
+            (2, 7 * MS, 12 * MS)
+        );
+        assert_eq!(statistics.implausible_events, 3);
+        assert_eq!(statistics.latency.count(), 0);
+        // Three digits are kept.
+        let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-3, "{a} ms is not {b}");
+        for (durations, middle_ms, longest_ms) in [
+            (&statistics.late, 1.0, 3.0),
+            (&statistics.step, 1.0, 8.0),
+            (&statistics.sent, 3.0, 13.0),
+            (&statistics.record, 1.0, 5.0),
+        ] {
+            assert_eq!(durations.count(), 4);
+            near(durations.percentile_ms(50.0), middle_ms);
+            near(durations.longest_ms(), longest_ms);
+        }
+        assert_eq!(statistics.step.text(), "1000000:2 3100000:1 8000000:1");
+        let facts = statistics.facts();
+        assert_eq!(
+            (facts["ticks"].as_str(), facts["overruns"].as_str(), facts["slip_ns"].as_str()),
+            ("4", "2", "12000000")
+        );
+    }
+
+    #[test]
+    fn nothing_and_too_much_are_durations_too() {
+        let mut durations = Durations::new();
+        durations.add(0);
+        durations.add(u64::MAX);
+        assert_eq!(durations.count(), 2);
+        assert!((durations.longest_ms() - 60_000.0).abs() < 60.0, "{}", durations.longest_ms());
+    }
+}

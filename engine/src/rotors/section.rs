@@ -315,6 +315,19 @@ mod tests {
         assert!(at(16.0, 0.1, 0.2, 0.3).0 > 1.1 * at(16.0, 0.1, 0.0, 0.3).0);
     }
 
+    /// Upside down beyond its stall a blade is a plate: 2·sin α·cos α of lift, .01 + 1.9·sin² α of drag.
+    #[test]
+    fn at_negative_stall_it_is_a_plate() {
+        for alpha_deg in [-25.0, -45.0, -80.0, -135.0, 170.0] {
+            let (s, c) = (sin(alpha_deg * DEG), cos(alpha_deg * DEG));
+            let (lift, drag) = at(alpha_deg, 0.1, 0.0, 0.5);
+            assert!((lift - 2.0 * s * c).abs() < 1e-12, "{alpha_deg} deg: lift {lift}");
+            assert!((drag - 0.01 - 1.9 * s * s).abs() < 1e-12, "{alpha_deg} deg: drag {drag}");
+        }
+        let (attached, _) = at(-5.0, 0.0, 0.0, 0.5);
+        assert!((attached + 0.5).abs() < 0.01, "its table's -.5 at -5 deg, not {attached}");
+    }
+
     /// At Mach .6 a section of 25 % is beyond its rise, .87 - .25 - .108 = .51, one of 8 % is not.
     #[test]
     fn the_thicker_root_drags_first() {
