@@ -1,4 +1,5 @@
 //! The manifests in the tree: of every workspace, not of the root's alone.
+#![allow(dead_code, reason = "every test crate takes its own part of it")]
 
 use std::collections::BTreeMap;
 use std::fs;
