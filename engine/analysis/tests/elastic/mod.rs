@@ -358,9 +358,9 @@ impl Rotor {
             let moved = |by: f64| {
                 let (mut x, mut u) = (x.to_vec(), [0.0; INPUTS]);
                 if by_input {
-                    u[column] += by
+                    u[column] += by;
                 } else {
-                    x[column] += by
+                    x[column] += by;
                 }
                 self.equations(form, &x, &u)
             };
