@@ -67,7 +67,8 @@ fn listed(arguments: &[&str]) -> BTreeSet<String> {
         .expect("cargo runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("text");
-    text.lines().map(|line| line.trim_end_matches(" (*)").to_string()).collect()
+    let lines = text.lines().filter(|line| !line.is_empty());
+    lines.map(|line| line.trim_end_matches(" (*)").to_string()).collect()
 }
 
 /// What engine, logs and replay are made of, without the viewer.

@@ -119,3 +119,87 @@ fn as_an_aeroplane_the_wing_stands_in_the_slipstream() {
         assert!((0.55..0.75).contains(&part), "{speed_kt} kt: {part}");
     }
 }
+
+/// Rolling and yawing moments of both halves by roll and yaw rate, as coefficients: l by p, l by r, n by p, n by r.
+fn rate_derivatives(xv15: &Aircraft, flight: &wing_pylon::Inputs) -> [f64; 4] {
+    let wing = &xv15.wing_pylon;
+    let moment = |rate: Vec3<Body>| {
+        let mut right = *flight;
+        right.motion.angular_rate_radps = rate;
+        let mut left = right;
+        left.motion = right.motion.mirrored();
+        let of = |half: &wing_pylon::Inputs| {
+            let load = wing_pylon::evaluate(wing, half);
+            load.free_stream + load.immersed
+        };
+        (of(&right) + of(&left).mirrored()).moment_n_m
+    };
+    let speed_mps = flight.motion.airspeed_mps.norm();
+    let per_rate = 0.25
+        * flight.motion.density_kg_per_m3
+        * speed_mps
+        * wing.area_m2
+        * wing.span_m
+        * wing.span_m;
+    let rate_radps = 1e-3;
+    let [by_roll, by_yaw] =
+        [Vec3::new(rate_radps, 0.0, 0.0), Vec3::new(0.0, 0.0, rate_radps)].map(moment);
+    [by_roll.x, by_yaw.x, by_roll.z, by_yaw.z].map(|n_m| n_m / (per_rate * rate_radps))
+}
+
+/// What the slipstream adds, in parts of how much faster its air is: strips' derivatives are up to
+/// three times the published ones (Cnp −CL/6 for −.06 CL).
+const SLIPSTREAM_TOLERANCE: f64 = 3.0;
+/// The slipstream sways with the rates, and lift goes with it from one part's place to the other's.
+const SWAY_TOLERANCE: f64 = 0.03;
+
+/// Two thirds of the wing stand in the slipstream: its rate derivatives are the published ones of the
+/// whole wing all the same, once.
+#[test]
+fn as_an_aeroplane_roll_and_yaw_are_damped_as_published_and_once() {
+    let xv15 = xv15();
+    for (speed_kt, v) in [(120.0, 0.8), (180.0, 0.5), (250.0, 0.4)] {
+        let velocity = Vec3::new(speed_kt * KT, 0.0, 0.02 * speed_kt * KT);
+        let mut cruise = inputs(&xv15, 90.0 * DEG, velocity, v);
+        cruise.flap_rad = 0.0;
+        let wing = &xv15.wing_pylon;
+        assert!(footprint(wing, &cruise).area_m2 > 0.25 * wing.area_m2);
+        let flap = engine::aero::polar::Flap::new(0.0);
+        let cl = wing.lift.lift_at(cruise.mast.tilt_rad, flap, 0.0, cruise.alpha_rad);
+        let cd0 = wing.drag_at_no_lift.at(cruise.mast.tilt_rad, 0.0);
+        let published = [-0.774, 0.27 * cl, -0.06 * cl, -0.016 * cl * cl - 0.32 * cd0];
+        let ours = rate_derivatives(&xv15, &cruise);
+        let faster = xv15.rotor_wake.wing_factor * v / velocity.norm();
+        println!("{speed_kt} kt: Clp, Clr, Cnp, Cnr {ours:.4?}, published {published:.4?}");
+        for (ours, published) in ours.iter().zip(published) {
+            let off = (ours - published).abs();
+            let part = SLIPSTREAM_TOLERANCE * faster + SWAY_TOLERANCE;
+            assert!(off < part * published.abs(), "{ours} {published}");
+        }
+    }
+}
+
+/// Without speed the coefficients have no air: the part in the wake is all that damps, and it does.
+#[test]
+fn in_hover_the_part_in_the_wake_damps_roll() {
+    let xv15 = xv15();
+    let rolling = |rate_radps: f64| {
+        let mut hover = inputs(&xv15, 0.0, Vec3::zero(), 17.0);
+        hover.motion.angular_rate_radps = Vec3::new(rate_radps, 0.0, 0.0);
+        let half = wing_pylon::evaluate(&xv15.wing_pylon, &hover).immersed.moment_n_m.x;
+        hover.motion.angular_rate_radps = Vec3::new(-rate_radps, 0.0, 0.0);
+        half - wing_pylon::evaluate(&xv15.wing_pylon, &hover).immersed.moment_n_m.x
+    };
+    let part = in_wake(&xv15, 0.0, Vec3::zero(), 17.0);
+    // Drag across the flow goes with the square of its speed: d(½ρV²·S·CD)/dp = ρ·V·S·CD·y, at y.
+    let through_mps = xv15.rotor_wake.wing_factor * 17.0;
+    let per_rate = engine::isa::DENSITY_SL_KG_PER_M3
+        * through_mps
+        * part.area_m2
+        * 1.44
+        * part.centroid_from_cg_m.y
+        * part.centroid_from_cg_m.y;
+    let ours = rolling(0.05) / (2.0 * 0.05);
+    println!("{ours:.0} N m s/rad, closed form {:.0}", -per_rate);
+    assert!((ours / -per_rate - 1.0).abs() < 0.1, "{ours} {per_rate}");
+}

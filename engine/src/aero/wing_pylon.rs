@@ -7,7 +7,8 @@
 //!   l = q·S/2·b·(Clβ·β + Clp·p̂ + Clr·CL·r̂ − K·Clδa·δa)               p̂ = p·b/2V, r̂ alike
 //!   N = q·S/2·b·((Cnβ + Cnβ2·CL²)·β + Cnp·CL·p̂ + (Cnr2·CL² + Cnr0·CD0)·r̂)
 //!       − q_iw·S/2·b·(K_n0 + K_n·CL·K·Clδa)·δa
-//! immersed: S_ss with the same CL and CD at V + K0·v·n; q_iw = ½ρ(U² + W²) there         [CR536 A-69]
+//! immersed: S_ss with the same CL and CD at V + K0·v·n + k·(p, r)×r; q_iw = ½ρ(U² + W²) there   [CR536 A-69]
+//!   k = 1 − V/V_iw, at least 0; V fading as the coefficients do: what the coefficients have not counted
 //!   at (X_iW, Y_iW): the middle of what is immersed, c_i/4·cos α ahead of it
 //! pylon:   D = q_iw·D_PYINT(βm)/2 + q_SP·S_PLAT·K_PLAT(β_SP)           at the pivot      [CR536 A-75]
 //! spinner: D = q_SP·(1 + 5.5·sin³α_m)      at the hub, at V + v·n, α_m to the mast       [CR536 A-76]
@@ -18,7 +19,12 @@
 //! # Assumptions
 //! Roll, yaw and sideslip act on the free stream through the published coefficients, so its α and q
 //! are those of the centre of gravity and not the half wing's own: taking both would count the
-//! damping twice. The immersed part, as [`wake_footprint`] has it, sees its own motion. The source gives
+//! damping twice. In the source they are those of the whole wing (it has lift and drag of the part in the
+//! wake and of the part outside, but one rolling and one yawing moment of wing and pylons): the part in
+//! the wake, as [`wake_footprint`] has it, adds to them what its air is faster by. With Clp = −.774, which
+//! is −a/6 of strips with the wing's own slope, that is all of the damping in hover, where the coefficients have
+//! no air, and 2 % of it as an aeroplane; its whole motion there would count two thirds of the wing twice.
+//! Pitching has no coefficient, so that the part in the wake sees all of it. The source gives
 //! its force arms of its own, from the trailing edge (X_iW, Y_iW, SL_WTE), not the quarter chord's: a
 //! wing broadside to the wake is a plate, loaded in the middle of its chord; with the flow along the
 //! chord again it is a quarter chord ahead of it, and cos α leads from one to the other. The deflection
@@ -106,7 +112,7 @@ fn loads(params: &Params, inputs: &Inputs, common: &Common) -> Outputs {
     let (immersed_m2, in_wake_pa) = (footprint.area_m2, in_wake.pressure_pa);
     Outputs {
         free_stream: free_stream(params, inputs, coefficients, arm, immersed_m2, in_wake_pa),
-        immersed: immersed(params, inputs, &footprint),
+        immersed: immersed(params, inputs, coefficients.attached, &footprint),
         pylon: pylon(params, inputs, coefficients, in_wake),
         spinner: spinner(params, inputs),
     }
@@ -231,11 +237,15 @@ fn free_stream(
     ))
 }
 
-fn immersed(params: &Params, inputs: &Inputs, part: &Footprint) -> Load {
+fn immersed(params: &Params, inputs: &Inputs, attached: f64, part: &Footprint) -> Load {
     if part.area_m2 <= 0.0 {
         return Load::default();
     }
-    let in_wake = InWake::at(inputs, part.centroid_from_cg_m);
+    let mut own = *inputs;
+    let not_counted = not_counted(inputs, attached);
+    own.motion.angular_rate_radps.x *= not_counted;
+    own.motion.angular_rate_radps.z *= not_counted;
+    let in_wake = InWake::at(&own, part.centroid_from_cg_m);
     let deflection_rad = inputs.flow.alpha_rad - inputs.alpha_rad;
     let alpha = wrap_angle(in_wake.alpha_rad - deflection_rad);
     let flap = Flap::new(inputs.flap_rad);
@@ -245,6 +255,14 @@ fn immersed(params: &Params, inputs: &Inputs, part: &Footprint) -> Load {
     let force = in_body_axes(pressure_area * cl, pressure_area * cd, 0.0, alpha);
     let ahead_m = 0.25 * part.chord_m * cos(alpha);
     load_at(force, part.centroid_from_cg_m + Vec3::new(ahead_m, 0.0, 0.0), 0.0)
+}
+
+/// k: the part of what roll and yaw do in the wake that the whole wing's coefficients do not hold.
+fn not_counted(inputs: &Inputs, attached: f64) -> f64 {
+    let speed = |v: Vec3<Body>| sqrt(square(v.x) + square(v.z));
+    let free_mps = attached * speed(inputs.motion.airspeed_mps);
+    let in_wake_mps = speed(inputs.motion.airspeed_mps + inputs.wake_mps);
+    max(0.0, 1.0 - free_mps / max(in_wake_mps, 1e-3))
 }
 
 /// Velocity of the hub through the air, its own rotor's included.

@@ -5,10 +5,11 @@
 //! w its rate in inertial space, m the air's flapping moment over I_b, (q, p) the hub's rates:
 //! ```text
 //! ż = w − (q + i·p)
-//! ẇ = 2iΩ·w − κ(z) + m                                                          [JOHNSON]
+//! I_t·(ẇ − 2iΩ·w) = −κ(z) + I_b·m          I_t = I_b + I_h/(3/2)                  [JOHNSON]
 //! β̈0 = −(Ω² + K_b/I_b)·β0 + K_b/I_b·β_p + m0
-//! κ(z) = K/(3/2·I_b)·z,   1/K = 1/K_H + 1/(3/2·K_b)        the gimbal's spring and the blades' own
-//! κ(z) = K_b/I_b·(|z| − z_max)·z/|z|                       beyond the gimbal's stop
+//! κ(z) = K/(3/2)·z,   1/K = 1/K_H + 1/(3/2·K_b)            the gimbal's spring and the blades' own
+//! κ(z) = K_b·(|z| − z_max)·z/|z|                           beyond the gimbal's stop
+//! S = b·(3/2)·I_b/R·β̈0                                     of the thrust, what accelerates the blades
 //! ```
 //! One tick is taken by the implicit midpoint rule, the air's damping m = m₀ − D·(Δw − iΩ·Δz) in it:
 //! of second order, stable at any rotor speed, steady where the motion is.
@@ -16,9 +17,11 @@
 //! Flap up; a1 aft and b1 to the right, as the disc's tilt. Moment of the spring on the airframe: as
 //! the tilt.
 //! # Assumptions
-//! A blade bends in the shape of a straight line from the hub, and the hub weighs nothing: gimbal
+//! A blade bends in the shape of a straight line from the hub, its mass spread evenly: gimbal
 //! and blades are springs in series, and what a blade bends with cos ψ and sin ψ follows from the
-//! tilt (K_H to 3/2·K_b, a few per cent) without states of its own. Gravity and the hub's
+//! tilt (K_H to 3/2·K_b, a few per cent) without states of its own. The hub tilts with the blades, as a flat ring:
+//! I_h about a diameter is half of what the rotor's polar inertia has beyond the blades'. What blades that bend in a
+//! curve of their own would change is in docs/model.md. Gravity and the hub's
 //! acceleration do not flap the blades. The gimbal keeps the speed constant.
 
 use serde::{Deserialize, Serialize};
@@ -78,6 +81,8 @@ pub struct Inputs {
     pub flap_sin_n_m: f64,
     /// D·I_b.
     pub damping_n_m_s: f64,
+    /// I_h.
+    pub hub_inertia_kg_m2: f64,
 }
 
 /// Where the gimbal is, and what it passes on.
@@ -94,7 +99,7 @@ pub struct Gimbal {
     /// Whether it is on its stop.
     pub on_stop: bool,
     /// Slope of κ.
-    stiffness_per_s2: f64,
+    stiffness_n_m: f64,
 }
 
 /// The gimbal under a tilted disc.
@@ -116,7 +121,7 @@ pub fn gimbal(params: &Params, state: &State) -> Gimbal {
         pitching_n_m: n_m_per_rad * state.aft_rad,
         rolling_n_m: n_m_per_rad * state.right_rad,
         on_stop,
-        stiffness_per_s2: slope / (1.5 * params.blade_inertia_kg_m2),
+        stiffness_n_m: slope / 1.5,
     }
 }
 
@@ -124,9 +129,10 @@ pub fn gimbal(params: &Params, state: &State) -> Gimbal {
 pub fn advance(params: &Params, state: &State, gimbal: &Gimbal, inputs: &Inputs) -> State {
     let h = STEP_S;
     let omega = inputs.omega_radps;
-    let per_inertia = 1.0 / params.blade_inertia_kg_m2;
+    // A disc that tilts takes the hub with it.
+    let per_inertia = 1.0 / (params.blade_inertia_kg_m2 + inputs.hub_inertia_kg_m2 / 1.5);
     let damping = inputs.damping_n_m_s * per_inertia;
-    let stiffness = gimbal.stiffness_per_s2;
+    let stiffness = gimbal.stiffness_n_m * per_inertia;
 
     // δw·(1 − ihΩ + κ'h²/4 + Dh/2 − iΩDh²/4) = h·(2iΩw − κ + m − (κ' − iΩD)·h/2·ż)
     let tilting =
@@ -148,6 +154,8 @@ pub fn advance(params: &Params, state: &State, gimbal: &Gimbal, inputs: &Inputs)
     let aft = scale * (right_hand.0 * real + right_hand.1 * imaginary);
     let right = scale * (right_hand.1 * real - right_hand.0 * imaginary);
 
+    let per_inertia = 1.0 / params.blade_inertia_kg_m2;
+    let damping = inputs.damping_n_m_s * per_inertia;
     let bending = params.blade_spring_n_m_per_rad * per_inertia;
     let stiffness = square(omega) + bending;
     let coning = h
@@ -163,4 +171,10 @@ pub fn advance(params: &Params, state: &State, gimbal: &Gimbal, inputs: &Inputs)
         right_rad: state.right_rad + h * (tilting.1 + 0.5 * right),
         right_radps: state.right_radps + right,
     }
+}
+
+/// S: what of a blade's air load goes into swinging it up from one state to the next, and not into the mast.
+pub fn swinging_n(params: &Params, state: &State, next: &State, radius_m: f64) -> f64 {
+    let coning_radps2 = (next.coning_radps - state.coning_radps) / STEP_S;
+    1.5 * params.blade_inertia_kg_m2 / radius_m * coning_radps2
 }

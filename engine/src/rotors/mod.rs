@@ -11,7 +11,7 @@
 //! elements are evaluated once a tick; inflow and flapping take the tick implicitly, because the flapping's fast
 //! root (2Ω, 123 rad/s) is too fast for the rates of the plant. So the block gives its next state.
 //! ```text
-//! F = (Σ in the hub plane, −T)     M = K·tilt by gimbal and stop, Q about the mast
+//! F = (Σ in the hub plane, −T + S)     M = K·tilt by gimbal and stop, Q about the mast
 //! ```
 //! # Signs
 //! Mast axes (x forward, y right, z down the mast); azimuth from aft. A1 and B1 tilt the disc right
@@ -64,6 +64,12 @@ pub struct Params {
 }
 
 impl Params {
+    /// I_h: the hub about a diameter, a flat ring of what the polar inertia has beyond the blades'.
+    pub fn hub_inertia_kg_m2(&self) -> f64 {
+        let blades_kg_m2 = self.blade.count * self.flapping.blade_inertia_kg_m2;
+        0.5 * max(0.0, self.polar_inertia_kg_m2 - blades_kg_m2)
+    }
+
     /// The blade's elements.
     pub fn blade(&self) -> blade::Blade {
         blade::blade(&self.blade, self.radius_m, self.flapping.delta3_rad)
@@ -228,11 +234,12 @@ pub fn evaluate(
     let sums = elements::elements(blade, &flow, &pitch, flap, &induced);
 
     let next = advance(params, state, &hub, &flow, &passage, &gimbal, &sums);
+    let swinging_n = flapping::swinging_n(&params.flapping, flap, &next.flapping, params.radius_m);
     let wake = Wake {
         induced_mps: ground.wake * (state.inflow.mean_mps + of_other * inputs.other_induced_mps),
         in_vortex_ring: passage.in_vortex_ring,
     };
-    (next, outputs(params, state, inputs, &hub, &gimbal, &sums, &wake))
+    (next, outputs(params, state, inputs, &hub, &gimbal, (&sums, swinging_n), &wake))
 }
 
 /// What the airframe and the crew notice of the rotor's inflow.
@@ -264,6 +271,7 @@ fn advance(
         flap_cos_n_m: sums.flap_cos_n_m,
         flap_sin_n_m: sums.flap_sin_n_m,
         damping_n_m_s: sums.damping_n_m_s,
+        hub_inertia_kg_m2: params.hub_inertia_kg_m2(),
     };
     State {
         inflow: inflow::advance(&state.inflow, passage, flow, &forcing, params.radius_m),
@@ -278,12 +286,13 @@ fn outputs(
     inputs: &Inputs,
     hub: &Hub,
     gimbal: &flapping::Gimbal,
-    sums: &elements::Sums,
+    (sums, swinging_n): (&elements::Sums, f64),
     wake: &Wake,
 ) -> Outputs {
     let blades = params.blade.count;
     let (thrust_n, torque_n_m) = (blades * sums.up_n, blades * sums.torque_n_m);
-    let force = Vec3::<Mast>::new(blades * sums.forward_n, blades * sums.right_n, -thrust_n);
+    let up_n = thrust_n - blades * swinging_n;
+    let force = Vec3::<Mast>::new(blades * sums.forward_n, blades * sums.right_n, -up_n);
     // The right rotor turns counter-clockwise: the air drags it, and the mast the airframe, the
     // other way round, which is positive about z, down the mast.
     let moment = Vec3::<Mast>::new(gimbal.rolling_n_m, gimbal.pitching_n_m, torque_n_m);

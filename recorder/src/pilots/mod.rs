@@ -4,6 +4,7 @@
 //! that hardware takes. They move their hands fifty times a second, and know nothing of the aircraft
 //! but what windows, dials and seat tell, and the corridor on their knee board.
 
+mod autorotation;
 mod device;
 mod phase;
 mod skill;
@@ -16,8 +17,9 @@ use engine::outputs::Validity;
 use engine::units::KNOT_MPS;
 use engine::{Outputs, STEP_S};
 
+use autorotation::{Autorotation, engines_are_out};
 pub use device::{DEVICE, VirtualDevice};
-use phase::{Order, Phase};
+use phase::{Nacelles, Order, Phase};
 use skill::{Eyes, HAND_TICKS, Positions, Skill};
 use sweep::{Axis, Steady};
 
@@ -49,6 +51,8 @@ pub fn lands(name: &str) -> bool {
 
 /// Higher than this it has flown, m.
 const FLOWN_M: f64 = 5.0;
+/// Masts that are tilted less are those of a helicopter, rad.
+const UPRIGHT_RAD: f64 = 0.1;
 
 /// From standing on the runway to flying as a helicopter.
 const TAKE_OFF: [(&str, Phase); 3] = [
@@ -168,6 +172,8 @@ pub struct Pilot {
     handle_tick: u64,
     /// The flight about which it sweeps.
     steady: Option<Steady>,
+    /// The way down without engines.
+    autorotation: Autorotation,
 }
 
 impl Pilot {
@@ -192,6 +198,7 @@ impl Pilot {
             thumb: 0,
             handle_tick: 0,
             steady: None,
+            autorotation: Autorotation::default(),
         })
     }
 
@@ -205,7 +212,7 @@ impl Pilot {
     fn give_up_flying(&mut self, seen: &Outputs, tick: u64) {
         let eyes = Eyes::look(seen);
         self.flown |= seen.height_above_ground_m > FLOWN_M;
-        let landing = |phase: &(&str, Phase)| phase.1 == Phase::Land;
+        let landing = |phase: &(&str, Phase)| phase.1.ends_on_wheels();
         let down = eyes.on_wheels_norm > 0.7 || seen.validity.contains(Validity::HULL);
         if !(self.flown && down) || self.phases.get(self.at).is_none_or(landing) {
             return;
@@ -216,6 +223,26 @@ impl Pilot {
         self.at += 1;
         self.since_tick = tick;
         self.touched_tick = Some(tick);
+    }
+
+    /// Who only wants to land does so without engines, too, once the masts are upright.
+    fn autorotate(&mut self, seen: &Outputs, tick: u64) {
+        let upright = seen.actuators.mast_tilt_rad.mean() < UPRIGHT_RAD;
+        let flies = seen.height_above_ground_m > FLOWN_M;
+        let phase = self.phases.get(self.at).map(|(_, phase)| *phase);
+        if self.name != "land"
+            || !(flies && upright && engines_are_out(seen))
+            || phase.is_none_or(|phase| phase == Phase::Autorotate)
+        {
+            return;
+        }
+        self.phases.truncate(self.at + 1);
+        self.phases.push(("autorotation", Phase::Autorotate));
+        self.at += 1;
+        self.since_tick = tick;
+        self.order.gear_down = true;
+        self.order.nacelles = Nacelles::Autorotation;
+        self.order.run_on = true;
     }
 
     /// The phase under way cannot be flown to its end; the first reason is the one that is told.
@@ -253,6 +280,7 @@ impl Hands for Pilot {
             self.begin(seen);
         }
         self.give_up_flying(seen, reach.tick);
+        self.autorotate(seen, reach.tick);
         if seen.validity.intersects(Validity::HULL | Validity::FROZEN) {
             self.give_up("the aircraft is a wreck");
         }

@@ -42,6 +42,8 @@ pub enum Phase {
     Sidle { forward_mps: f64, right_mps: f64, seconds: f64 },
     /// Descends onto the wheels and lowers the lever.
     Land,
+    /// Comes down without engines.
+    Autorotate,
     /// Keeps the flight that it finds, the hands at the controls' positions.
     Steady { seconds: f64 },
     /// Sweeps a control about that flight.
@@ -49,6 +51,11 @@ pub enum Phase {
 }
 
 impl Phase {
+    /// Whether it is over when the wheels are on the ground.
+    pub fn ends_on_wheels(self) -> bool {
+        matches!(self, Self::Land | Self::Autorotate)
+    }
+
     /// When a pilot no longer waits for what does not come, and gives up, s. What has no end of its own
     /// is never given up for its length.
     pub fn patience_s(self) -> f64 {
@@ -72,6 +79,7 @@ pub enum Nacelles {
     Stay,
     Forward,
     Aft,
+    Autorotation,
 }
 
 /// What the phases have asked for so far.
@@ -86,8 +94,8 @@ pub struct Order {
     sink_mps_max: f64,
     heading_rad: f64,
     bank_rad_max: f64,
-    nacelles: Nacelles,
-    gear_down: bool,
+    pub nacelles: Nacelles,
+    pub gear_down: bool,
     /// It lands with speed, because one engine does not let it hover.
     pub run_on: bool,
     /// Where it hovers.
@@ -141,6 +149,8 @@ const ROTOR_RADPS: f64 = 61.68;
 const ROTORS_OFF_MAX: f64 = 0.05;
 /// Nearer to an end than this the nacelles are there, rad.
 const END_RAD: f64 = 0.003;
+/// Mast tilt of an autorotation: nacelles at 95° (TM-81244), rad.
+const AUTOROTATION_RAD: f64 = -0.087;
 /// Deceleration of an approach, m/s².
 const APPROACH_MPS2: f64 = 1.4;
 /// Over the ground where one engine does not let it hover, m/s: 35 kt.
@@ -243,7 +253,7 @@ impl Pilot {
                 let off_rad = wrap_angle(order.start_heading_rad - seen.euler.heading_rad);
                 off_rad.abs() < 0.05 && seen.angular_rate_radps.z.abs() < 0.03
             }
-            Phase::Land => self.touched_tick.is_some_and(|touched| {
+            Phase::Land | Phase::Autorotate => self.touched_tick.is_some_and(|touched| {
                 let down_s = (reach.tick - touched) as f64 * STEP_S;
                 down_s > SETTLE_S && (seen.velocity_mps.norm() < ROLLING_MPS || down_s > ROLL_S)
             }),
@@ -400,7 +410,7 @@ impl Pilot {
 
     /// Stick, lever and pedals for this moment.
     pub(super) fn positions(&mut self, phase: Phase, seen: &Outputs, tick: u64) -> Positions {
-        if phase == Phase::Land && seen.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0 {
+        if phase.ends_on_wheels() && seen.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0 {
             self.touched_tick.get_or_insert(tick);
         }
         if matches!(phase, Phase::Wait { .. }) {
@@ -410,6 +420,10 @@ impl Pilot {
             return self.skill.settle(LOWER_PER_S);
         }
         let aim = self.aim(phase, seen);
+        if phase == Phase::Autorotate {
+            let hands = self.autorotation.hands(seen);
+            return self.skill.hold(seen, &aim, hands);
+        }
         self.skill.fly(seen, &aim)
     }
 
@@ -427,6 +441,8 @@ impl Pilot {
         let rotors_off = seen.rotor_speed_radps / ROTOR_RADPS - 1.0;
         let thumb = match order.nacelles {
             Nacelles::Stay => 0,
+            // As autorotations were flown, whatever the rotors do meanwhile.
+            Nacelles::Autorotation => i8::from(tilt_rad > AUTOROTATION_RAD),
             _ if rotors_off.abs() > ROTORS_OFF_MAX => 0,
             Nacelles::Forward if tilt_rad < FRAC_PI_2 - 1e-4 => {
                 let ahead_rad = min(tilt_rad + AHEAD_RAD, FRAC_PI_2);
@@ -456,7 +472,7 @@ impl Pilot {
             return;
         }
         let to_move = match order.nacelles {
-            Nacelles::Stay => false,
+            Nacelles::Stay | Nacelles::Autorotation => false,
             Nacelles::Forward => tilt_rad < FRAC_PI_2 - 1e-4,
             Nacelles::Aft => tilt_rad > 1e-4,
         };
@@ -491,6 +507,9 @@ fn one_engine_is_out(seen: &Outputs) -> bool {
 fn flap_detent(order: &Order, tilt_rad: f64, now: u64) -> u64 {
     let incidence_deg = 90.0 - tilt_rad.to_degrees();
     // Up late and down early, as the handbook has it.
+    if order.nacelles == Nacelles::Autorotation {
+        return 1;
+    }
     let helicopter_deg = if order.nacelles == Nacelles::Aft { 60.0 } else { 75.0 };
     if incidence_deg > helicopter_deg {
         2

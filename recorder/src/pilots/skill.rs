@@ -167,7 +167,31 @@ impl Skill {
         // Below 30 kt it is a helicopter over a spot, above 50 kt something that flies.
         let flying = if aim.any_way { 0.0 } else { ramp(seen.airspeed_mps, 15.0, 26.0) };
         let (pitch_rad, lever_norm) = self.pitch_and_lever(seen, &eyes, aim, flying);
-        let roll_rad = self.roll(seen, &eyes, aim, flying);
+        self.sticks(seen, &eyes, aim, flying, (pitch_rad, lever_norm))
+    }
+
+    /// The same with pitch and lever that are known.
+    pub fn hold(
+        &mut self,
+        seen: &Outputs,
+        aim: &Aim,
+        (pitch_rad, lever_norm): (f64, f64),
+    ) -> Positions {
+        let flying = ramp(seen.airspeed_mps, 15.0, 26.0);
+        (self.pitch_rad, self.lever_norm) = (pitch_rad, lever_norm);
+        self.sticks(seen, &Eyes::look(seen), aim, flying, (pitch_rad, lever_norm))
+    }
+
+    /// Stick and pedals that serve an attitude.
+    fn sticks(
+        &mut self,
+        seen: &Outputs,
+        eyes: &Eyes,
+        aim: &Aim,
+        flying: f64,
+        (pitch_rad, lever_norm): (f64, f64),
+    ) -> Positions {
+        let roll_rad = self.roll(seen, eyes, aim, flying);
         let on_wheels = eyes.on_wheels_norm > 0.1;
 
         // The faster, the lighter the hand.
@@ -297,9 +321,9 @@ impl Skill {
             aim.bank_rad_max,
         );
         let wanted_rad = slow * hover_rad + flying * bank_rad;
-        // Nobody throws an aircraft into a turn: fifteen degrees a second.
-        self.roll_rad += clamp(wanted_rad - self.roll_rad, -0.25 * HAND_S, 0.25 * HAND_S)
-            * if slow > 0.5 { 3.0 } else { 1.0 };
+        // Nobody throws an aircraft into a turn: fifteen degrees a second, over a spot three times that.
+        let most_rad = if slow > 0.5 { 0.75 } else { 0.25 } * HAND_S;
+        self.roll_rad += clamp(wanted_rad - self.roll_rad, -most_rad, most_rad);
         self.roll_level_rad + self.roll_rad
     }
 }
