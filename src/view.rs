@@ -20,7 +20,12 @@ pub struct Args {
     #[arg(long, value_name = "OTHER")]
     against: Option<PathBuf>,
     /// What of the other log is laid beside the first: the same time, the start, the first lift-off, or a marker
-    #[arg(long, value_name = "time|start|lift-off|marker:N", requires = "against", default_value = "time")]
+    #[arg(
+        long,
+        value_name = "time|start|lift-off|marker:N",
+        requires = "against",
+        default_value = "time"
+    )]
     align: String,
     /// Arrangement: pilot, engineer, rotor, latency, compare, or a file of one's own
     /// [default: pilot; compare with --against]
@@ -51,8 +56,17 @@ pub use open::run;
 /// Says what is missing.
 #[cfg(not(feature = "rerun"))]
 pub fn run(args: &Args) -> anyhow::Result<crate::status::Status> {
-    let Args { log, against: _, align: _, layout: _, at: _, save: _, force: _, viewer: _, window: _ } =
-        args;
+    let Args {
+        log,
+        against: _,
+        align: _,
+        layout: _,
+        at: _,
+        save: _,
+        force: _,
+        viewer: _,
+        window: _,
+    } = args;
     anyhow::bail!(
         "{}: this program was built without `rerun`; build it with the default features, or open the \
          log itself: `rerun {0}`",

@@ -8,8 +8,8 @@ use logs::output::Output;
 use logs::text::at;
 use replay::judgement::disorder;
 use replay::view::{
-    About, Comparison, DrawError, FlightView, Layout, Mark, Moment, Other, Own, Stamp, draw_against,
-    level, severity,
+    About, Comparison, DrawError, FlightView, Layout, Mark, Moment, Other, Own, Stamp,
+    draw_against, level, severity,
 };
 use replay::{Facts, Reflight, ReflyOptions, Window};
 

@@ -87,8 +87,9 @@ impl FromStr for Align {
             "time" => Ok(Self::Time),
             "start" => Ok(Self::Start),
             "lift-off" => Ok(Self::LiftOff),
-            _ => marker()
-                .ok_or_else(|| format!("--align {text}: expected time, start, lift-off or marker:1")),
+            _ => marker().ok_or_else(|| {
+                format!("--align {text}: expected time, start, lift-off or marker:1")
+            }),
         }
     }
 }

@@ -16,20 +16,21 @@ use crate::status::Status;
 
 /// Draws the log, unless that is done, and shows it.
 pub fn run(args: &Args) -> Result<Status> {
-    let at: Option<At> = args.at.as_deref().map(str::parse).transpose().map_err(anyhow::Error::msg)?;
+    let at: Option<At> =
+        args.at.as_deref().map(str::parse).transpose().map_err(anyhow::Error::msg)?;
     let align: Align = args.align.parse().map_err(anyhow::Error::msg)?;
     let layout = layout(args.layout.as_deref(), args.against.is_some())?;
+    let inputs: Vec<&Path> =
+        [Some(&args.log), args.against.as_ref()].into_iter().flatten().map(|f| &**f).collect();
+    for log in &inputs {
+        std::fs::metadata(log).with_context(|| format!("cannot open {}", log.display()))?;
+    }
     // Better now than after a minute of drawing.
     let viewer = match args.save {
         Some(_) => None,
         None => Some(Viewer::find(&args.viewer)?),
     };
     let saved = args.save.clone().unwrap_or_else(|| place(args));
-    let inputs: Vec<&Path> =
-        [Some(&args.log), args.against.as_ref()].into_iter().flatten().map(|f| &**f).collect();
-    for log in &inputs {
-        std::fs::metadata(log).with_context(|| format!("cannot open {}", log.display()))?;
-    }
     let window = args.window.of(&args.log)?;
     if args.against.is_some() && window != Window::default() {
         bail!("--against shows whole flights; `tiltrotor log clip` makes logs of their parts");

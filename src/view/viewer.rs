@@ -20,7 +20,7 @@ const OPENS: Duration = Duration::from_secs(60);
 /// Between two looks at whether it still runs.
 const LOOK: Duration = Duration::from_millis(50);
 /// So much of what it said before it ended is told.
-const LINES: usize = 8;
+const LINES: usize = 4;
 
 /// A viewer that is there.
 pub struct Viewer {
@@ -99,19 +99,16 @@ fn stands(child: &mut Child, patience: Duration) -> Result<()> {
     Ok(())
 }
 
-/// What it said last.
+/// What it said last, in one line.
 fn last_words(heard: &mut File) -> String {
     let mut said = String::new();
     let read = heard.seek(SeekFrom::Start(0)).and_then(|_| heard.read_to_string(&mut said));
     let lines: Vec<&str> = said.lines().filter(|line| !line.trim().is_empty()).collect();
-    let last = &lines[lines.len().saturating_sub(LINES)..];
-    match read {
-        Ok(_) if !last.is_empty() => format!(
-            "it said:\n  {}\nwithout a screen, `--save FLIGHT.rrd` makes the recording alone",
-            last.join("\n  ")
-        ),
-        _ => "it said nothing; without a screen, `--save FLIGHT.rrd` makes the recording alone".into(),
-    }
+    let last = lines[lines.len().saturating_sub(LINES)..].join(" / ");
+    let said = if read.is_ok() && !last.is_empty() { last } else { "nothing".into() };
+    format!(
+        "the viewer said: {said}; without a screen, --save FLIGHT.rrd makes the recording alone"
+    )
 }
 
 fn free_port() -> std::io::Result<u16> {

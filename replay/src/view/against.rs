@@ -52,7 +52,10 @@ impl Comparison {
     /// Of a log and its reflight.
     pub fn of_reflight(title: &str) -> Self {
         Self {
-            about: About { title: title.into(), recording_id: format!("tiltrotor-reflown-{title}") },
+            about: About {
+                title: title.into(),
+                recording_id: format!("tiltrotor-reflown-{title}"),
+            },
             layout: Layout::Compare,
             names: ["recorded".into(), "reflown".into()],
             shift_ticks: 0,
@@ -302,7 +305,8 @@ impl Page {
         // It is laid beside the first one's.
         of_b.tick = tick;
         self.second.push(&mut self.canvas, Moment { outputs: &of_b, world: b.2, events: b.3 });
-        let lines = GRAPHS.iter().flat_map(|graph| graph.lines.iter().map(move |line| (graph, line)));
+        let lines =
+            GRAPHS.iter().flat_map(|graph| graph.lines.iter().map(move |line| (graph, line)));
         let plots: Vec<f64> = lines
             .map(|(graph, line)| difference(graph.entity, (line.of)(&of_a), (line.of)(&of_b)))
             .collect();
@@ -428,7 +432,8 @@ impl Page {
         self.first.finish(&mut self.canvas);
         self.second.finish(&mut self.canvas);
         let names = [&self.first.look.name, &self.second.look.name];
-        let page = self.largest.page(names.map(|name| name.trim_end_matches(": ")), self.first_difference);
+        let page =
+            self.largest.page(names.map(|name| name.trim_end_matches(": ")), self.first_difference);
         let document = TextDocument::new(page).with_media_type(MediaType::markdown());
         let sent = self.canvas.recording.log_static("delta/largest", &document);
         self.canvas.keep(sent);

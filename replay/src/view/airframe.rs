@@ -374,8 +374,7 @@ mod tests {
         let xv15 = xv15();
         let Struts { nose, main } = gear(&xv15);
         let surfaces = surfaces::surfaces(&xv15).into_iter().map(|surface| surface.solid);
-        let fixed =
-            [airframe(&xv15), nose, main.left, main.right, nacelle(&xv15), blades(&xv15)];
+        let fixed = [airframe(&xv15), nose, main.left, main.right, nacelle(&xv15), blades(&xv15)];
         for solid in fixed.into_iter().chain(surfaces) {
             let count = u32::try_from(solid.positions.len()).unwrap();
             assert_eq!(solid.normals.len(), solid.positions.len());

@@ -4,6 +4,7 @@
 //! eye, no visible time, no legend. Its builder only logs archetypes to a recording of the
 //! blueprint kind, so this does the same with the archetypes themselves, which it exports.
 
+use engine::STEP_NS;
 use rerun::blueprint::components::{
     ActiveTab, BackgroundKind, ColumnShare, ContainerKind, Corner2D, Eye3DKind, LinkAxis,
     PanelState, RowShare, ViewClass,
@@ -28,8 +29,10 @@ use super::layout::{Part, Plan, Shown};
 
 /// How much of the line behind the aircraft is bright.
 const FLOWN_NS: i64 = 30_000_000_000;
-/// Without it the viewer shows a minute around the cursor.
-const WHOLE_FLIGHT: components::TimeRange = components::TimeRange(TimeRange::EVERYTHING);
+/// Legends lie over the beginning of a plot: time axes begin before the flight, by this part of it.
+const BEFORE_NORM: f64 = 0.26;
+/// And end after it by this part, so that its last moment is seen.
+const AFTER_NORM: f64 = 0.02;
 /// The viewer's place for what all views with a linked time axis share (`GLOBAL_VIEW_ID` in its source).
 const ALL_VIEWS: [u8; 16] = [
     0x5C, 0x0D, 0xCA, 0x6A, 0xE6, 0x3F, 0x9C, 0xF7, 0xF6, 0x57, 0x26, 0x02, 0x59, 0x04, 0x74, 0xCC,
@@ -42,12 +45,13 @@ type Id = String;
 ///
 /// A view fits its axes, map and eye to what is there when it first appears. So a layout is sent
 /// twice: at the start for a flight that never ends, and at the end, as other views (`edition`), to
-/// be fitted to the whole flight. With `mark` it has that name.
+/// be fitted to the whole flight, whose first and last tick are the `span`. With `mark` it has that name.
 pub fn send(
     recording: &RecordingStream,
     edition: u8,
     plan: &Plan,
     mark: &str,
+    span: Option<(u64, u64)>,
 ) -> RecordingStreamResult<()> {
     let Some(about) = recording.store_info() else { return Ok(()) };
     let mut builder = RecordingStreamBuilder::new(about.application_id().clone())
@@ -64,7 +68,7 @@ pub fn send(
     let root = page.id();
     let all = page.part(&plan.layout.tree(plan))?;
     page.put_container(root, ContainerKind::Vertical, "Review", &[all], &[])?;
-    page.panels(root)?;
+    page.panels(root, span)?;
 
     let messages = storage.take();
     let blueprint = messages.iter().find_map(|message| match message {
@@ -189,10 +193,8 @@ impl Page<'_> {
         let [[slow, fast], [low, high]] = corridor::SEEN;
         let (a, b) = (corridor::place(slow, high), corridor::place(fast, low));
         let range = |from: f32, to: f32| [f64::from(from), f64::from(to)].into();
-        let bounds = VisualBounds2D::new(Range2D {
-            x_range: range(a[0], b[0]),
-            y_range: range(a[1], b[1]),
-        });
+        let bounds =
+            VisualBounds2D::new(Range2D { x_range: range(a[0], b[0]), y_range: range(a[1], b[1]) });
         let dark = Background::new(BackgroundKind::SolidColor).with_color(0x1C_20_26_FF);
         let queries = self.plan.each("corridor/**");
         let properties: &[(&str, &dyn AsComponents)] =
@@ -272,7 +274,7 @@ impl Page<'_> {
         Ok(path)
     }
 
-    fn panels(&self, root: Uuid) -> RecordingStreamResult<()> {
+    fn panels(&self, root: Uuid, span: Option<(u64, u64)>) -> RecordingStreamResult<()> {
         let viewport = ViewportBlueprint::new()
             .with_root_container(RootContainer(root))
             .with_auto_layout(false)
@@ -286,7 +288,7 @@ impl Page<'_> {
             .with_timeline(TimelineName(super::SIM_TIME.into()));
         self.stream.log("time_panel", &time)?;
         let all = format!("view/{}/TimeAxis", hyphenated(Uuid { bytes: ALL_VIEWS }));
-        self.stream.log(all, &TimeAxis::new().with_view_range(WHOLE_FLIGHT))
+        self.stream.log(all, &TimeAxis::new().with_view_range(whole(span)))
     }
 
     fn id(&mut self) -> Uuid {
@@ -296,6 +298,16 @@ impl Page<'_> {
         bytes[14..].copy_from_slice(&self.named.to_be_bytes());
         Uuid { bytes }
     }
+}
+
+/// All of a flight, with room for legends before it. Without it the viewer shows a minute around the cursor.
+fn whole(span: Option<(u64, u64)>) -> components::TimeRange {
+    let Some((first, last)) = span else { return components::TimeRange(TimeRange::EVERYTHING) };
+    let ns = |tick: f64| TimeRangeBoundary::Absolute(TimeInt((tick * STEP_NS as f64) as i64));
+    let (first, last) = (first as f64, last as f64);
+    let length = last - first;
+    let (start, end) = (ns(first - BEFORE_NORM * length), ns(last + AFTER_NORM * length));
+    components::TimeRange(TimeRange { start, end })
 }
 
 fn column(kind: TextLogColumnKind) -> TextLogColumn {
@@ -312,7 +324,6 @@ fn hyphenated(id: Uuid) -> String {
     }
     text
 }
-
 
 #[cfg(test)]
 mod tests {

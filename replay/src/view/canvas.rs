@@ -31,6 +31,8 @@ pub struct About {
 pub struct Canvas {
     /// The recording.
     pub recording: RecordingStream,
+    /// First and last tick drawn.
+    pub span: Option<(u64, u64)>,
     plan: Plan,
     error: Option<RecordingStreamError>,
 }
@@ -54,9 +56,11 @@ impl Canvas {
         recording.set_log_time_enabled(false);
         recording.set_log_tick_enabled(false);
         recording.send_recording_name(about.title.as_str())?;
-        drawn.iter().try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
-        layout::send(&recording, 1, &plan, "")?;
-        Ok(Self { recording, plan, error: None })
+        drawn
+            .iter()
+            .try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
+        layout::send(&recording, 1, &plan, "", None)?;
+        Ok(Self { recording, span: None, plan, error: None })
     }
 
     /// Sends rows of an entity.
@@ -65,6 +69,12 @@ impl Canvas {
             self.recording.send_columns(entity, times.iter().cloned(), columns)
         });
         self.keep(sent);
+    }
+
+    /// Notes that a tick is drawn.
+    pub fn reach(&mut self, tick: u64) {
+        let (first, last) = self.span.unwrap_or((tick, tick));
+        self.span = Some((first.min(tick), last.max(tick)));
     }
 
     /// Keeps the first error.
@@ -76,7 +86,7 @@ impl Canvas {
 
     /// Sends the layout once more, fitted to the whole, under a name that says `mark`; the first error.
     pub fn end(mut self, mark: &str) -> (RecordingStream, Option<RecordingStreamError>) {
-        let sent = layout::send(&self.recording, 2, &self.plan, mark);
+        let sent = layout::send(&self.recording, 2, &self.plan, mark, self.span);
         self.keep(sent);
         (self.recording, self.error)
     }

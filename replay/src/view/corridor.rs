@@ -1,6 +1,6 @@
 //! The conversion corridor as a plane: calibrated airspeed to the right, nacelle incidence up.
 //!
-//! A plane of the viewer is as long across as up, and counts downwards: an incidence of 1° is drawn 2 kt high.
+//! A plane of the viewer is as long across as up, and counts downwards: an incidence of 1° is drawn 1.2 kt high.
 
 use engine::Outputs;
 use engine::aircraft::Params as Aircraft;
@@ -18,10 +18,10 @@ pub const NOW: &str = "corridor/now";
 const TRACK: &str = "corridor/track";
 
 /// What is seen of the plane at first: airspeeds, kt, and incidences, deg.
-pub const SEEN: [[f64; 2]; 2] = [[-25.0, 300.0], [-8.0, 104.0]];
+pub const SEEN: [[f64; 2]; 2] = [[-30.0, 310.0], [-14.0, 104.0]];
 
 /// High by so much for 1°.
-const KT_PER_DEG: f64 = 2.0;
+const KT_PER_DEG: f64 = 1.2;
 /// Points of the track are so far apart at least.
 const SPACING_KT: f64 = 0.5;
 /// The track is thinned by half when it has more points than this.
@@ -61,15 +61,25 @@ pub fn send_still(
             .map(|(mps, tilt_rad)| place(knots(mps), 90.0 - degrees(tilt_rad)))
             .collect()
     };
-    let limits = [limit(&|tilt| corridor.slowest_mps(tilt)), limit(&|tilt| corridor.fastest_mps(tilt))];
+    let limits =
+        [limit(&|tilt| corridor.slowest_mps(tilt)), limit(&|tilt| corridor.fastest_mps(tilt))];
     recording.log_static(
         look.entity(LIMITS),
         &LineStrips2D::new(limits)
             .with_radii([Radius::new_ui_points(1.8)])
             .with_colors([LIMIT])
-            .with_labels(["slowest: wing stall", "fastest: rotor and mast loads"])
-            .with_show_labels(true)
             .with_draw_order(1.0),
+    )?;
+    let half_rad = 0.5 * (least + greatest);
+    let beside = |mps: f64, right_kt: f64| place(knots(mps) + right_kt, 90.0 - degrees(half_rad));
+    let (slow, fast) = (corridor.slowest_mps(half_rad), corridor.fastest_mps(half_rad));
+    recording.log_static(
+        look.entity("corridor/limits/labels"),
+        &Points2D::new([beside(slow, -28.0), beside(fast, 52.0)])
+            .with_radii([Radius::new_ui_points(0.0)])
+            .with_colors([LIMIT])
+            .with_labels(["wing stall", "rotor and mast loads"])
+            .with_show_labels(look.ground),
     )?;
     if look.ground {
         send_grid(recording, look)?;
@@ -96,8 +106,8 @@ fn send_grid(recording: &RecordingStream, look: &Look) -> RecordingStreamResult<
             .with_draw_order(0.0),
     )?;
     let labels = speeds_kt
-        .map(|kt| (place(kt, -5.0), format!("{kt:.0} kt")))
-        .chain(angles_deg.map(|deg| (place(-12.0, deg), format!("{deg:.0}°"))));
+        .map(|kt| (place(kt, -7.0), format!("{kt:.0} kt")))
+        .chain(angles_deg.map(|deg| (place(-15.0, deg), format!("{deg:.0}°"))));
     let (at, words): (Vec<_>, Vec<_>) = labels.unzip();
     recording.log_static(
         look.entity("corridor/grid/labels"),

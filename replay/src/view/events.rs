@@ -15,7 +15,7 @@ pub const LANE: &str = "modes/events";
 /// An event is seen in its lane for so long, s, unless the next one comes.
 const SEEN_S: f64 = 4.0;
 /// Of a long flight for this part of it, so that it is seen at all.
-const SEEN_NORM: f64 = 0.02;
+const SEEN_NORM: f64 = 0.05;
 
 /// What happened in a flight.
 #[derive(Default)]
@@ -38,7 +38,14 @@ fn short(words: &str) -> &str {
 
 impl Events {
     /// Notes an event in the list, and for the lane.
-    pub fn add(&mut self, canvas: &mut Canvas, look: &Look, tick: u64, level: Severity, text: &str) {
+    pub fn add(
+        &mut self,
+        canvas: &mut Canvas,
+        look: &Look,
+        tick: u64,
+        level: Severity,
+        text: &str,
+    ) {
         let words = format!("{}{text}", look.name);
         let columns = TextLog::new(words)
             .with_level(level.name())
@@ -85,7 +92,8 @@ fn lane(all: &mut [(u64, Severity, String)]) -> Vec<(u64, &str)> {
         }
         changes.push((*tick, words));
         let until = tick.saturating_add(seen);
-        if all.get(number + 1).is_none_or(|(next, ..)| *next > until) {
+        let next = all[number + 1..].iter().map(|(next, ..)| next).find(|next| *next > tick);
+        if next.is_none_or(|next| *next > until) {
             changes.push((until, ""));
         }
     }
@@ -105,6 +113,7 @@ mod tests {
             (5100, Severity::Error, "the hull".into()),
         ];
         let changes = lane(&mut all);
+        // A twentieth of this short flight is less than what is seen at least.
         let expected = [(0, "exact"), (1000, ""), (5000, "marker 1"), (5100, "impact"), (6100, "")];
         assert_eq!(changes, expected);
         assert_eq!(short("lift-off, climbing 0.03 m/s"), "lift-off");

@@ -2,8 +2,8 @@
 
 use engine::Outputs;
 use logs::cdr;
-use logs::layout::{Kind, Layout};
 use logs::fields::Value;
+use logs::layout::{Kind, Layout};
 use logs::records::TimingRecord;
 use logs::units::unit_of;
 use rerun::{RecordingStream, RecordingStreamResult, Scalars, SeriesLines};
@@ -16,8 +16,14 @@ pub const OWN: &str = "fields";
 
 /// Colours of the lines of a view, in the order of its fields.
 const COLOURS: [u32; 8] = [
-    0xF5_A0_3C_FF, 0x5B_A8_F5_FF, 0xB6_8C_F0_FF, 0xE6_E6_E6_FF, 0x3F_B9_5A_FF, 0xF0_DC_50_FF,
-    0x48_D0_D0_FF, 0xE0_4A_3F_FF,
+    0xF5_A0_3C_FF,
+    0x5B_A8_F5_FF,
+    0xB6_8C_F0_FF,
+    0xE6_E6_E6_FF,
+    0x3F_B9_5A_FF,
+    0xF0_DC_50_FF,
+    0x48_D0_D0_FF,
+    0xE0_4A_3F_FF,
 ];
 
 /// Where a number is found.
@@ -141,13 +147,18 @@ mod tests {
         let message = cdr::encode(&outputs).expect("bytes");
         let field = Field::named("rotors.left.thrust_n").expect("a field");
         assert_eq!(field.of(&message).to_bits(), 28_000.0_f64.to_bits());
-        assert_eq!((field.unit().as_str(), field.entity().as_str()), ("N", "fields/outputs/rotors/left/thrust_n"));
+        assert_eq!(
+            (field.unit().as_str(), field.entity().as_str()),
+            ("N", "fields/outputs/rotors/left/thrust_n")
+        );
         assert_eq!(Field::named("outputs/rotors.left.thrust_n"), Ok(field));
         let timing = TimingRecord { late_ns: 7, ..TimingRecord::default() };
         let message = cdr::encode(&timing).expect("bytes");
         let field = Field::named("timing/late_ns").expect("a field");
         assert_eq!(field.of(&message).to_bits(), 7.0_f64.to_bits());
-        for (wrong, says) in [("rotors.thrust", "log fields"), ("state/plant", "outputs and timing")] {
+        for (wrong, says) in
+            [("rotors.thrust", "log fields"), ("state/plant", "outputs and timing")]
+        {
             assert!(Field::named(wrong).is_err_and(|told| told.contains(says)), "{wrong}");
         }
     }

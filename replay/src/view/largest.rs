@@ -31,9 +31,9 @@ impl Largest {
             Some(tick) => page.push_str(&format!("First difference at {}.\n\n", at(tick))),
             None => page.push_str("No difference: the same states to the bit.\n\n"),
         }
-        let names = GRAPHS.iter().flat_map(|graph| {
-            graph.lines.iter().map(move |line| (graph.title, line.name))
-        });
+        let names = GRAPHS
+            .iter()
+            .flat_map(|graph| graph.lines.iter().map(move |line| (graph.title, line.name)));
         let differing: Vec<_> =
             names.zip(&self.lines).filter(|(_, (difference, _))| *difference != 0.0).collect();
         if differing.is_empty() {

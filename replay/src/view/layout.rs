@@ -238,7 +238,10 @@ fn pilot(plan: &Plan) -> Part {
     across(
         "Pilot",
         &[11.0, 10.0],
-        vec![down("Where", &[5.0, 3.0, 2.0], left), down("When", &[13.0, 9.0], vec![plots, lanes()])],
+        vec![
+            down("Where", &[5.0, 3.0, 2.0], left),
+            down("When", &[12.0, 10.0], vec![plots, lanes()]),
+        ],
     )
 }
 
@@ -250,23 +253,24 @@ fn engineer(plan: &Plan) -> Part {
         &[2.0, 3.0],
         vec![
             down("Where", &[3.0, 2.0, 2.0], left),
-            down("When", &[13.0, 9.0], vec![tabs(plan, &all), lanes()]),
+            down("When", &[12.0, 10.0], vec![tabs(plan, &all), lanes()]),
         ],
     )
 }
 
 fn rotor(plan: &Plan) -> Part {
-    let left = vec![aircraft(NEAR_M, &[]), places(Shown::Corridor)];
-    let plots = across("Rotors", &[], vec![
-        tabs(plan, &[ROTORS, ENGINES, GEAR]),
-        tabs(plan, &[BLADES, LOADS, CONTROLS]),
-    ]);
+    let left = vec![aircraft(NEAR_M, &[]), places(Shown::Corridor), view(Shown::Events)];
+    let plots = across(
+        "Rotors",
+        &[],
+        vec![tabs(plan, &[ROTORS, ENGINES, GEAR]), tabs(plan, &[BLADES, LOADS, CONTROLS])],
+    );
     across(
         "Rotor",
         &[1.0, 2.0],
         vec![
-            down("Where", &[3.0, 2.0], left),
-            down("When", &[13.0, 8.0], vec![plots, lanes()]),
+            down("Where", &[3.0, 2.0, 2.0], left),
+            down("When", &[12.0, 10.0], vec![plots, lanes()]),
         ],
     )
 }
@@ -277,7 +281,7 @@ fn latency(plan: &Plan) -> Part {
     across(
         "Latency",
         &[5.0, 2.0],
-        vec![down("When", &[14.0, 8.0], left), down("Where", &[1.0, 1.0], right)],
+        vec![down("When", &[12.0, 10.0], left), down("Where", &[1.0, 1.0], right)],
     )
 }
 
@@ -286,7 +290,8 @@ const COMPARED: [Tab; 8] = [FLIGHT, MOTION, CONTROLS, ROTORS, BLADES, ENGINES, L
 
 fn compare(plan: &Plan) -> Part {
     let pairs = COMPARED.iter().map(|(name, graphs)| {
-        let delta = graphs.iter().filter_map(|name| graph(name)).filter(|(_, of)| !of.contains('*'));
+        let delta =
+            graphs.iter().filter_map(|name| graph(name)).filter(|(_, of)| !of.contains('*'));
         let deltas = delta.map(|(title, entity)| {
             let queries = vec![format!("/delta/{entity}")];
             view(Shown::Plot { title: format!("Δ {title}"), queries, legend: true })
@@ -311,7 +316,7 @@ fn compare(plan: &Plan) -> Part {
         &[2.0, 3.0],
         vec![
             down("Where", &[4.0, 3.0, 3.0], left),
-            down("When", &[14.0, 9.0], vec![Part::Tabs("Plots".into(), plots), lanes()]),
+            down("When", &[12.0, 12.0], vec![Part::Tabs("Plots".into(), plots), lanes()]),
         ],
     )
 }
@@ -340,11 +345,12 @@ mod tests {
     #[test]
     fn every_graph_is_in_the_engineer_s_layout_and_every_name_is_a_graph() {
         let found = all_of(Layout::Engineer, &[""]);
-        for entity in GRAPHS.iter().map(|graph| graph.entity).chain(TIMES.iter().map(|g| g.entity)) {
+        for entity in GRAPHS.iter().map(|graph| graph.entity).chain(TIMES.iter().map(|g| g.entity))
+        {
             let query = format!("/{entity}");
-            let drawn = found.iter().any(
-                |one| matches!(one, Shown::Plot { queries, .. } if queries.contains(&query)),
-            );
+            let drawn = found
+                .iter()
+                .any(|one| matches!(one, Shown::Plot { queries, .. } if queries.contains(&query)));
             assert!(drawn, "{entity}");
         }
         for (tab, graphs) in COMPARED.iter().chain([&LATENCY]) {

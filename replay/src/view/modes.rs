@@ -80,8 +80,7 @@ pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
     let told = Validity::FACTS.iter().map(|facts| (facts.words, severity_colour(facts.severity)));
     let model: Vec<_> = [(WITHIN, QUIET)].into_iter().chain(told).collect();
     let failed = Failures::FACTS.iter().map(|facts| (facts.words, ALARM));
-    let failures: Vec<_> =
-        [(NONE, QUIET), (SEVERAL, ALARM)].into_iter().chain(failed).collect();
+    let failures: Vec<_> = [(NONE, QUIET), (SEVERAL, ALARM)].into_iter().chain(failed).collect();
     let modes = [
         Mode::new(
             "modes/nacelles",
@@ -89,11 +88,15 @@ pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
             nacelles,
         ),
         Mode::new(
-            "modes/wheels",
-            &[("on the ground", 0x8A_6A_48_FF), ("airborne", ACTIVE)],
-            |seen| ground(seen.outputs),
+            "modes/gear",
+            &[
+                ("up", QUIET),
+                ("moving", CAUTION),
+                ("down", GREEN),
+                ("on the ground", 0x8A_6A_48_FF),
+            ],
+            gear,
         ),
-        Mode::new("modes/gear", &[("up", QUIET), ("moving", CAUTION), ("down", GREEN)], gear),
         Mode::new(
             "modes/flaps",
             &[("0°", QUIET), ("20°", 0x2A_5C_90_FF), ("40°", ACTIVE), ("75°", 0x58_A8_F0_FF)],
@@ -106,7 +109,12 @@ pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
         ),
         Mode::new(
             "modes/governor",
-            &[("holds the speed", QUIET), ("below", CAUTION), ("above", CAUTION), ("failed", ALARM)],
+            &[
+                ("holds the speed", QUIET),
+                ("underspeed", CAUTION),
+                ("overspeed", ALARM),
+                ("failed", ALARM),
+            ],
             governor,
         ),
         Mode::new("modes/failures", &failures, failures_now),
@@ -129,16 +137,10 @@ pub fn configuration(outputs: &Outputs) -> (&'static str, u32) {
     }
 }
 
-fn ground(outputs: &Outputs) -> &'static str {
-    if outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0 {
-        "on the ground"
-    } else {
-        "airborne"
-    }
-}
-
-fn gear(seen: Seen) -> &'static str {
-    match seen.outputs.actuators.gear_extension_norm {
+fn gear(Seen { outputs, .. }: Seen) -> &'static str {
+    let on_wheels = outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
+    match outputs.actuators.gear_extension_norm {
+        _ if on_wheels => "on the ground",
         extension if extension >= 1.0 => "down",
         extension if extension <= 0.0 => "up",
         _ => "moving",
@@ -163,12 +165,10 @@ fn scas(seen: Seen) -> &'static str {
     }
 }
 
-/// Further than this from the selected speed the governor does not hold it, as a part of that speed: what
-/// can be read off a dial of percents.
-const HELD_NORM: f64 = 0.01;
 /// Other speeds than the helicopter's are granted with the nacelles on the down stop only.
 const DOWN_DEG: f64 = 1.0;
 
+/// Whether it holds the selected speed, as far as the crew would be warned otherwise.
 fn governor(Seen { outputs, world, aircraft }: Seen) -> &'static str {
     if world.failures.contains(Failures::GOVERNOR) {
         return "failed";
@@ -178,9 +178,10 @@ fn governor(Seen { outputs, world, aircraft }: Seen) -> &'static str {
     let selected = if down { outputs.cockpit.rpm_select } else { 0 };
     let selected_radps =
         usize::try_from(selected).ok().and_then(|select| speeds.get(select)).unwrap_or(&speeds[0]);
-    match outputs.rotor_speed_radps / selected_radps - 1.0 {
-        off if off < -HELD_NORM => "below",
-        off if off > HELD_NORM => "above",
+    let limits = &aircraft.envelope.rotors;
+    match outputs.rotor_speed_radps {
+        speed_radps if speed_radps < limits.underspeed_norm * selected_radps => "underspeed",
+        speed_radps if speed_radps > limits.overspeed_radps => "overspeed",
         _ => "holds the speed",
     }
 }
@@ -209,8 +210,8 @@ mod tests {
     use std::collections::BTreeSet;
 
     fn lanes(outputs: &Outputs, world: &World) -> Vec<(&'static str, &'static str)> {
-        let aircraft =
-            aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|error| panic!("{error}"));
+        let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15)
+            .unwrap_or_else(|error| panic!("{error}"));
         let seen = Seen { outputs, world, aircraft: &aircraft };
         MODES
             .iter()

@@ -80,9 +80,9 @@ struct FileView {
 impl FileView {
     fn read(&self) -> Result<View, String> {
         match (&self.show, &self.fields) {
-            (Some(name), None) => shown(name).map(View::Shown).ok_or_else(|| {
-                format!("show = \"{name}\": expected one of {}", NAMES.join(", "))
-            }),
+            (Some(name), None) => shown(name)
+                .map(View::Shown)
+                .ok_or_else(|| format!("show = \"{name}\": expected one of {}", NAMES.join(", "))),
             (None, Some(names)) if !names.is_empty() => {
                 let fields: Vec<Field> =
                     names.iter().map(|name| Field::named(name)).collect::<Result<_, _>>()?;
@@ -96,7 +96,9 @@ impl FileView {
 
 fn shown(name: &str) -> Option<Shown> {
     Some(match name {
-        "aircraft" => Shown::Aircraft { eye_m: [-16.0, -12.5, -7.0], without: &["aircraft/moments"] },
+        "aircraft" => {
+            Shown::Aircraft { eye_m: [-16.0, -12.5, -7.0], without: &["aircraft/moments"] }
+        }
         "overview" => Shown::Overview,
         "map" => Shown::Map,
         "corridor" => Shown::Corridor,
@@ -188,7 +190,8 @@ mod tests {
         };
         let Part::Down(name, _, views) = &tabs[0] else { panic!("no views") };
         assert_eq!((name.as_str(), views.len()), ("Left", 2));
-        let queries = ["/fields/outputs/rotors/left/thrust_n", "/fields/outputs/rotors/right/thrust_n"];
+        let queries =
+            ["/fields/outputs/rotors/left/thrust_n", "/fields/outputs/rotors/right/thrust_n"];
         assert_eq!(
             views[0],
             Part::View(Shown::Plot {

@@ -60,39 +60,69 @@ const fn broad<T>(name: &'static str, colour: u32, of: Value<T>) -> Line<T> {
 /// A graph of something on both sides.
 macro_rules! sides {
     ($entity:literal, $title:literal, $of:expr) => {
-        Graph::new($entity, $title, &[
-            broad("left", LEFT, |o: &Outputs| { let of: fn(&Outputs) -> Pair<f64> = $of; of(o).left }),
-            line("right", RIGHT, |o: &Outputs| { let of: fn(&Outputs) -> Pair<f64> = $of; of(o).right }),
-        ])
+        Graph::new(
+            $entity,
+            $title,
+            &[
+                broad("left", LEFT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $of;
+                    of(o).left
+                }),
+                line("right", RIGHT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $of;
+                    of(o).right
+                }),
+            ],
+        )
     };
 }
 
 /// A graph of what is asked for and what is there, on both sides.
 macro_rules! followed {
     ($entity:literal, $title:literal, $asked:expr, $there:expr) => {
-        Graph::new($entity, $title, &[
-            broad("asked left", PALE_LEFT, |o: &Outputs| { let of: fn(&Outputs) -> Pair<f64> = $asked; degrees(of(o).left) }),
-            broad("asked right", PALE_RIGHT, |o: &Outputs| { let of: fn(&Outputs) -> Pair<f64> = $asked; degrees(of(o).right) }),
-            line("left", LEFT, |o: &Outputs| { let of: fn(&Outputs) -> Pair<f64> = $there; degrees(of(o).left) }),
-            line("right", RIGHT, |o: &Outputs| { let of: fn(&Outputs) -> Pair<f64> = $there; degrees(of(o).right) }),
-        ])
+        Graph::new(
+            $entity,
+            $title,
+            &[
+                broad("asked left", PALE_LEFT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $asked;
+                    degrees(of(o).left)
+                }),
+                broad("asked right", PALE_RIGHT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $asked;
+                    degrees(of(o).right)
+                }),
+                line("left", LEFT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $there;
+                    degrees(of(o).left)
+                }),
+                line("right", RIGHT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $there;
+                    degrees(of(o).right)
+                }),
+            ],
+        )
     };
 }
 
 /// A graph of one part of the loads of every component.
 macro_rules! by_component {
     ($entity:literal, $title:literal, $part:expr) => {
-        Graph::new($entity, $title, &[
-            broad("total", WHITE, |o: &Outputs| part(o.total, $part)),
-            broad("left rotor", LEFT, |o: &Outputs| part(o.loads.rotors.left, $part)),
-            line("right rotor", RIGHT, |o: &Outputs| part(o.loads.rotors.right, $part)),
-            line("wing and pylons", BLUE, |o: &Outputs| part(o.loads.wing_pylon.sum(), $part)),
-            line("fuselage", ORANGE, |o: &Outputs| part(o.loads.fuselage, $part)),
-            line("tailplane", VIOLET, |o: &Outputs| part(o.loads.horizontal_stabilizer, $part)),
-            line("fins", YELLOW, |o: &Outputs| part(o.loads.vertical_stabilizers.sum(), $part)),
-            line("gear", GREY, |o: &Outputs| part(gear(&o.loads), $part)),
-            line("engine jets", CYAN, |o: &Outputs| part(o.loads.jets.sum(), $part)),
-        ])
+        Graph::new(
+            $entity,
+            $title,
+            &[
+                broad("total", WHITE, |o: &Outputs| part(o.total, $part)),
+                broad("left rotor", LEFT, |o: &Outputs| part(o.loads.rotors.left, $part)),
+                line("right rotor", RIGHT, |o: &Outputs| part(o.loads.rotors.right, $part)),
+                line("wing and pylons", BLUE, |o: &Outputs| part(o.loads.wing_pylon.sum(), $part)),
+                line("fuselage", ORANGE, |o: &Outputs| part(o.loads.fuselage, $part)),
+                line("tailplane", VIOLET, |o: &Outputs| part(o.loads.horizontal_stabilizer, $part)),
+                line("fins", YELLOW, |o: &Outputs| part(o.loads.vertical_stabilizers.sum(), $part)),
+                line("gear", GREY, |o: &Outputs| part(gear(&o.loads), $part)),
+                line("engine jets", CYAN, |o: &Outputs| part(o.loads.jets.sum(), $part)),
+            ],
+        )
     };
 }
 
@@ -257,7 +287,8 @@ mod tests {
     /// A line with a number has a unit: in the title, unless it counts or is a ratio.
     #[test]
     fn every_graph_says_its_unit() {
-        let ratios = ["plots/blade_loading", "plots/stalled", "plots/gear_extension", "times/overrun"];
+        let ratios =
+            ["plots/blade_loading", "plots/stalled", "plots/gear_extension", "times/overrun"];
         for (entity, title) in GRAPHS
             .iter()
             .map(|graph| (graph.entity, graph.title))

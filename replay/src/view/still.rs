@@ -135,9 +135,7 @@ pub fn send_path(
     }
     recording.log_static(
         look.entity("world/path"),
-        &LineStrips3D::new(strips)
-            .with_radii([Radius::new_ui_points(1.2)])
-            .with_colors(colours),
+        &LineStrips3D::new(strips).with_radii([Radius::new_ui_points(1.2)]).with_colors(colours),
     )?;
     let spacing = (trail.len() / POSTS_MAX).max(20);
     let posts = trail.iter().step_by(spacing);

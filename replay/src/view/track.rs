@@ -189,6 +189,7 @@ impl Track {
 
     /// Draws a row.
     pub fn draw(&mut self, canvas: &mut Canvas, outputs: &Outputs, world: &World) {
+        canvas.reach(outputs.tick);
         self.follow(outputs);
         self.trace.add(outputs, &self.aircraft);
         self.show_modes(canvas, outputs, world);
@@ -279,7 +280,8 @@ impl Track {
         send_graphs(canvas, &self.look, GRAPHS, &rows, &times);
         canvas.send(&self.look.entity(corridor::NOW), &times, corridor::columns(&rows));
         if self.own.iter().any(|(_, field)| field.channel == Channel::Outputs) {
-            let messages: Vec<Vec<u8>> = rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
+            let messages: Vec<Vec<u8>> =
+                rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
             fields::send(canvas, &self.look, &self.own, Channel::Outputs, &ticks, &messages);
         }
         self.send_flown(canvas, &rows);
@@ -294,7 +296,8 @@ impl Track {
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
         send_graphs(canvas, &self.look, TIMES, &rows, &times(&ticks));
         if self.own.iter().any(|(_, field)| field.channel == Channel::Timing) {
-            let messages: Vec<Vec<u8>> = rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
+            let messages: Vec<Vec<u8>> =
+                rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
             fields::send(canvas, &self.look, &self.own, Channel::Timing, &ticks, &messages);
         }
     }
