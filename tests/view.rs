@@ -6,7 +6,7 @@ mod common;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::{DIVERGED, Forgery, OK, folder, hover, text, tiltrotor};
+use common::{DIVERGED, Forgery, OK, UNUSABLE, folder, hover, text, tiltrotor};
 
 /// Whether the name of an entity is somewhere in the recording: its chunks are compressed, its
 /// manifest at the end is not.
@@ -145,7 +145,7 @@ fn a_viewer_that_is_missing_old_or_dies_is_told_before_and_after_drawing() {
     with(Path::new("/bin/echo")).refused().says("not the rerun viewer").says(install);
     assert!(!place.join("flight.rrd").exists(), "drawn for no viewer");
     let dying = viewer(&place, VERSION, "echo 'no graphics adapter' >&2; exit 3");
-    with(&dying).refused().says("no graphics adapter").says("--save");
+    with(&dying).ends(UNUSABLE).says("no graphics adapter").says("--save");
 }
 
 #[test]
