@@ -35,125 +35,50 @@
 
 mod against;
 mod airframe;
+mod basics;
 mod blueprint;
 mod canvas;
+mod columns;
 pub mod control;
 mod corridor;
 mod events;
+mod field;
 mod fields;
 mod file;
 mod forces;
 mod largest;
 mod layout;
+mod look;
 mod modes;
 mod own;
+mod parts;
 mod plots;
 mod raw;
 mod scene;
 mod scenery;
+mod sections;
 mod solid;
 mod stamp;
 mod still;
 mod surfaces;
 mod track;
 
-use std::path::PathBuf;
-
 use engine::aircraft::Params as Aircraft;
-use engine::pair::Pair;
 use logs::output::Output;
 use logs::records::TimingRecord;
-use rerun::RecordingStreamError;
-use rerun::external::re_log_encoding::rrd::EncodeError;
-use rerun::sink::SinkFlushError;
 
-use crate::judgement::{Judgement, Outcome};
 pub use against::{Comparison, DrawError, Drawn, Other, draw_against};
+pub use basics::{Severity, ViewError, level, severity};
 pub use canvas::About;
 use canvas::Canvas;
 use file::Saved;
 pub use layout::Layout;
-use layout::Plan;
+use look::Look;
 pub use own::{Own, OwnError};
+use parts::Plan;
 pub use stamp::{Mark, Stamp, Standing};
 pub use track::Moment;
-use track::{Look, Track};
-
-/// Of this many ticks one is drawn: 50 Hz.
-const TICKS_PER_ROW: u64 = 5;
-/// Nanoseconds of the timeline that the viewer opens on.
-const SIM_TIME: &str = "sim_time";
-
-/// Left is red and right is green, as the navigation lights are.
-const SIDES: Pair<u32> = Pair { left: 0xE0_4A_3F_FF, right: 0x3F_B9_5A_FF };
-
-/// Why a flight could not be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum ViewError {
-    /// The file could not be made, or did not take everything: disk full, or taken away.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// Which file.
-        path: PathBuf,
-        /// What rerun, or through it the system, says.
-        source: EncodeError,
-    },
-    /// Rerun refused something.
-    #[error("cannot draw the flight for {}: {source}", path.display())]
-    Draw {
-        /// Which file.
-        path: PathBuf,
-        /// What rerun says.
-        source: Box<RecordingStreamError>,
-    },
-    /// Rerun stopped before everything was written.
-    #[error("the recording {} is incomplete: {source}", path.display())]
-    Flush {
-        /// Which file.
-        path: PathBuf,
-        /// What rerun says.
-        source: SinkFlushError,
-    },
-}
-
-/// How much an event matters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// Good to know: a marker, a device that appeared.
-    Info,
-    /// Needs attention: a device gone, a model beyond its data.
-    Warning,
-    /// Something failed.
-    Error,
-}
-
-impl Severity {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Info => rerun::TextLogLevel::INFO,
-            Self::Warning => rerun::TextLogLevel::WARN,
-            Self::Error => rerun::TextLogLevel::ERROR,
-        }
-    }
-}
-
-/// How much it matters what a log tells.
-pub fn level(level: logs::view::Level) -> Severity {
-    match level {
-        logs::view::Level::Info => Severity::Info,
-        logs::view::Level::Warn => Severity::Warning,
-        logs::view::Level::Error => Severity::Error,
-    }
-}
-
-/// How much it matters what a log is.
-pub fn severity(judgement: &Judgement) -> Severity {
-    match judgement.outcome {
-        Outcome::Exact | Outcome::NotReflown => Severity::Info,
-        Outcome::NeverClosed | Outcome::Compared => Severity::Warning,
-        _ => Severity::Error,
-    }
-}
+use track::Track;
 
 /// Draws a flight into an `.rrd` file while it is flown or reflown.
 ///
@@ -178,7 +103,7 @@ impl FlightView {
     ) -> Result<Self, ViewError> {
         let saved = Saved::new(out)?;
         let look = Look::alone();
-        let plan = Plan::new(layout.clone(), &[&look.root]);
+        let plan = (layout.clone(), Plan::new(&[&look.root]));
         let drawn = [(&look, aircraft)];
         let mut canvas = Canvas::begin(Box::new(saved.file.clone()), about, plan, &drawn)
             .map_err(|error| saved.refused(error))?;
@@ -216,6 +141,7 @@ mod tests {
     use engine::frames::{Euler, Vec3};
     use engine::inputs::World;
     use engine::math::{FRAC_PI_2, clamp, cos, ramp, sin};
+    use engine::pair::Pair;
     use engine::state::Geodetic;
     use logs::LogError;
     use std::path::Path;

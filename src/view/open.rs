@@ -8,7 +8,7 @@ use logs::text::{at, size};
 use replay::Window;
 use replay::view::{Mark, Stamp, Standing};
 
-use super::Args;
+use super::args::Args;
 use super::draw::{self, Drawing, layout};
 use super::moment::{Align, At};
 use super::viewer::Viewer;

@@ -10,16 +10,18 @@ use logs::output::Output;
 use logs::view::Remark;
 use rerun::{LineStrips3D, MediaType, Radius, Scalars, SeriesLines, TextDocument};
 
+use super::basics::{Severity, TICKS_PER_ROW, ViewError, level, severity};
 use super::canvas::{About, Canvas, times};
+use super::columns::point;
 use super::file::Saved;
 use super::largest::Largest;
-use super::layout::{Layout, Plan};
+use super::layout::Layout;
+use super::look::Look;
+use super::parts::Plan;
 use super::plots::GRAPHS;
-use super::scene::point;
 use super::stamp::Mark;
 use super::still::send_graphs;
-use super::track::{Look, Moment, Track};
-use super::{Severity, TICKS_PER_ROW, ViewError, level, severity};
+use super::track::{Moment, Track};
 use crate::compare::Names;
 use crate::diff::{At, Cursor};
 use crate::judgement::Judgement;
@@ -254,7 +256,7 @@ impl Page {
         how: &Comparison,
     ) -> Result<Self, DrawError> {
         let [first, second] = [Look::first(&how.names[0]), Look::second(&how.names[1])];
-        let plan = Plan::new(how.layout.clone(), &[&first.root, &second.root]);
+        let plan = (how.layout.clone(), Plan::new(&[&first.root, &second.root]));
         let drawn = [(&first, &**of_first), (&second, &**of_second)];
         let mut canvas = Canvas::begin(Box::new(file.file.clone()), &how.about, plan, &drawn)
             .map_err(|error| file.refused(error))?;

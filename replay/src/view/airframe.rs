@@ -15,22 +15,14 @@ use engine::struts::Struts;
 use rerun::Mesh3D;
 use rerun::components::AlbedoFactor;
 
+use super::sections::{BLUE, WHITE, WHOLE, section, station, wing_quarter_m};
 use super::solid::{Point, Solid, refine, ring};
 use super::surfaces;
 
-/// Of most of it.
-pub const WHITE: u32 = 0xEC_EE_F0_FF;
-/// Of what is painted.
-pub const BLUE: u32 = 0x24_57_A8_FF;
 const GLASS: u32 = 0x1C_2A_38_FF;
 const DARK: u32 = 0x3A_3E_44_FF;
 const BLADE: u32 = 0x2A_2C_30_FF;
 const TIP: u32 = 0xF2_C0_30_FF;
-
-/// A drawing's station in the airframe's axes.
-pub fn station(aft: f32, right: f32, up: f32) -> Point {
-    [-aft, right, -up]
-}
 
 /// Where the parts that move sit on the airframe.
 #[derive(Clone, Copy)]
@@ -156,13 +148,6 @@ fn fuselage(solid: &mut Solid, shape: &Fuselage) {
             () => WHITE,
         }
     });
-}
-
-/// The quarter chord of the wing at a buttline.
-pub fn wing_quarter_m(wing: &Wing, right: f64) -> Vec3<Structural> {
-    let Vec3 { x, y, z, .. } = wing.quarter_chord_m;
-    let out = right.abs() - y;
-    Vec3::new(x + tan(wing.sweep_rad) * out, right, z + tan(wing.dihedral_rad) * out)
 }
 
 fn wing(solid: &mut Solid, wing: &Wing) {
@@ -333,32 +318,6 @@ pub fn disc(aircraft: &Aircraft, colour: u32) -> Mesh3D {
     let rim = ring(72, |s, c| [radius * c, radius * s, -coning(aircraft) * radius]);
     solid.fan(&rim, [0.0, 0.0, -1.0], colour);
     solid.mesh().with_albedo_factor(AlbedoFactor::from(rerun::Rgba32(0xFF_FF_FF_48)))
-}
-
-/// The whole chord.
-pub const WHOLE: [f32; 2] = [0.0, 1.0];
-
-/// A symmetric wing section around its quarter chord, flat or standing; of its chord from one part to another.
-pub fn section(
-    quarter_m: Vec3<Structural>,
-    chord_m: f64,
-    thickness_ratio: f64,
-    standing: bool,
-    [from, to]: [f32; 2],
-) -> Vec<Point> {
-    let [aft, right, up] = [quarter_m.x, quarter_m.y, quarter_m.z].map(|x| x as f32);
-    let (chord, thickness) = (chord_m as f32, thickness_ratio as f32);
-    ring(28, |s, c| {
-        // Cosine spacing from the rear end around the front and back.
-        let along = from + (to - from) * 0.5 * (1.0 + c);
-        let half = thickness
-            * (1.4845 * along.sqrt() - 0.630 * along - 1.758 * along.powi(2)
-                + 1.4215 * along.powi(3)
-                - 0.518 * along.powi(4));
-        let off = s.signum() * half * chord;
-        let aft = aft + (along - 0.25) * chord;
-        if standing { station(aft, right + off, up) } else { station(aft, right, up + off) }
-    })
 }
 
 #[cfg(test)]

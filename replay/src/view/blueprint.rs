@@ -25,7 +25,8 @@ use rerun::external::re_sdk_types::datatypes::{
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
 use super::corridor;
-use super::layout::{Part, Plan, Shown};
+use super::layout::Layout;
+use super::parts::{Part, Plan, Shown};
 
 /// How much of the line behind the aircraft is bright.
 const FLOWN_NS: i64 = 30_000_000_000;
@@ -49,7 +50,7 @@ type Id = String;
 pub fn send(
     recording: &RecordingStream,
     edition: u8,
-    plan: &Plan,
+    (layout, plan): (&Layout, &Plan),
     mark: &str,
     span: Option<(u64, u64)>,
 ) -> RecordingStreamResult<()> {
@@ -66,7 +67,7 @@ pub fn send(
     stream.set_time_sequence("blueprint", 0);
     let mut page = Page { stream, edition, plan, named: 0 };
     let root = page.id();
-    let all = page.part(&plan.layout.tree(plan))?;
+    let all = page.part(&layout.tree(plan))?;
     page.put_container(root, ContainerKind::Vertical, "Review", &[all], &[])?;
     page.panels(root, span)?;
 
@@ -180,7 +181,7 @@ impl Page<'_> {
         let id = self.view("3D", name, origin, &queries, properties)?;
         let start = TimeRangeBoundary::CursorRelative(TimeInt(-FLOWN_NS));
         let range = TimeRange { start, end: TimeRangeBoundary::AT_CURSOR };
-        let lately = VisibleTimeRange { timeline: super::SIM_TIME.into(), range };
+        let lately = VisibleTimeRange { timeline: super::basics::SIM_TIME.into(), range };
         let lately = VisibleTimeRanges::new([lately]);
         for flown in self.plan.each("world/flown") {
             let place = format!("{id}/ViewContents/overrides{flown}/visualizers");
@@ -206,7 +207,7 @@ impl Page<'_> {
     fn events(&mut self) -> RecordingStreamResult<Id> {
         let columns = TextLogColumns::new()
             .with_timeline_columns([TimelineColumn {
-                timeline: super::SIM_TIME.into(),
+                timeline: super::basics::SIM_TIME.into(),
                 visible: true.into(),
             }])
             .with_text_log_columns(
@@ -285,7 +286,7 @@ impl Page<'_> {
         self.stream.log("selection_panel", &closed)?;
         let time = TimePanelBlueprint::new()
             .with_state(PanelState::Collapsed)
-            .with_timeline(TimelineName(super::SIM_TIME.into()));
+            .with_timeline(TimelineName(super::basics::SIM_TIME.into()));
         self.stream.log("time_panel", &time)?;
         let all = format!("view/{}/TimeAxis", hyphenated(Uuid { bytes: ALL_VIEWS }));
         self.stream.log(all, &TimeAxis::new().with_view_range(whole(span)))

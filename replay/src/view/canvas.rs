@@ -8,12 +8,14 @@ use rerun::{
     TimeColumn,
 };
 
-use super::SIM_TIME;
-use super::layout::{self, Plan};
-use super::scene::Columns;
+use super::basics::SIM_TIME;
+use super::blueprint;
+use super::columns::Columns;
+use super::layout::Layout;
+use super::look::Look;
+use super::parts::Plan;
 use super::stamp::APPLICATION;
 use super::still::send_still_life;
-use super::track::Look;
 
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
@@ -33,6 +35,7 @@ pub struct Canvas {
     pub recording: RecordingStream,
     /// First and last tick drawn.
     pub span: Option<(u64, u64)>,
+    layout: Layout,
     plan: Plan,
     error: Option<RecordingStreamError>,
 }
@@ -43,7 +46,7 @@ impl Canvas {
     pub fn begin(
         sink: Box<dyn LogSink>,
         about: &About,
-        plan: Plan,
+        (layout, plan): (Layout, Plan),
         drawn: &[(&Look, &Aircraft)],
     ) -> RecordingStreamResult<Self> {
         // Of its properties only the name is sent: rerun would add when it began.
@@ -59,8 +62,8 @@ impl Canvas {
         drawn
             .iter()
             .try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
-        layout::send(&recording, 1, &plan, "", None)?;
-        Ok(Self { recording, span: None, plan, error: None })
+        blueprint::send(&recording, 1, (&layout, &plan), "", None)?;
+        Ok(Self { recording, span: None, layout, plan, error: None })
     }
 
     /// Sends rows of an entity.
@@ -86,7 +89,7 @@ impl Canvas {
 
     /// Sends the layout once more, fitted to the whole, under a name that says `mark`; the first error.
     pub fn end(mut self, mark: &str) -> (RecordingStream, Option<RecordingStreamError>) {
-        let sent = layout::send(&self.recording, 2, &self.plan, mark, self.span);
+        let sent = blueprint::send(&self.recording, 2, (&self.layout, &self.plan), mark, self.span);
         self.keep(sent);
         (self.recording, self.error)
     }

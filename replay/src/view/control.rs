@@ -10,7 +10,7 @@ use re_protos::sdk_comms::v1alpha1::{
 };
 use tonic::transport::{Channel, Endpoint};
 
-use super::SIM_TIME;
+use super::basics::SIM_TIME;
 
 /// Between two looks at whether the viewer has what it is to show.
 const PAUSE: Duration = Duration::from_millis(100);

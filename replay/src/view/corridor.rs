@@ -8,7 +8,7 @@ use engine::math::max;
 use engine::units::{degrees, knots};
 use rerun::{LineStrips2D, Points2D, Radius, RecordingStream, RecordingStreamResult};
 
-use super::track::Look;
+use super::look::Look;
 
 /// Entities of the limits and the grid, of where the flight is, and of where it was.
 pub const LIMITS: &str = "corridor/limits";
@@ -120,7 +120,7 @@ fn send_grid(recording: &RecordingStream, look: &Look) -> RecordingStreamResult<
 }
 
 /// Where the flight is, row by row.
-pub fn columns(rows: &[Outputs]) -> super::scene::Columns {
+pub fn columns(rows: &[Outputs]) -> super::columns::Columns {
     Points2D::new(rows.iter().map(place_of)).columns_of_unit_batches().map(Vec::from_iter)
 }
 

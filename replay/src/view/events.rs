@@ -3,9 +3,9 @@
 use engine::STEP_S;
 use rerun::{StateChange, StateConfiguration, TextLog};
 
-use super::Severity;
+use super::basics::Severity;
 use super::canvas::{Canvas, times};
-use super::track::Look;
+use super::look::Look;
 
 /// Entity of the list; each flight of several has its own below it.
 pub const LIST: &str = "events";

@@ -17,7 +17,7 @@ use rerun::sink::{LogSink, SinkFlushError};
 
 use logs::output::Output;
 
-use super::ViewError;
+use super::basics::ViewError;
 use super::canvas::Canvas;
 
 /// A recording's file, which whoever asked for it puts in its place.

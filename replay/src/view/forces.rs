@@ -8,9 +8,10 @@ use engine::pair::Pair;
 use engine::{GRAVITY_MPS2, struts::Struts};
 use rerun::{Arrows3D, AsComponents};
 
-use super::SIDES;
-use super::airframe::{Mounts, wing_quarter_m};
-use super::scene::{Columns, point};
+use super::airframe::Mounts;
+use super::basics::SIDES;
+use super::columns::{Columns, point};
+use super::sections::wing_quarter_m;
 
 /// A force of 7 kN is a metre long: a rotor that hovers has an arrow of 4 m.
 const M_PER_N: f64 = 1.0 / 7000.0;

@@ -13,11 +13,10 @@
 //! ```
 //! Two flights have the same places; each plot has the difference beside it.
 
-use super::fields::Field;
+use super::field::Field;
 use super::own::Own;
+use super::parts::{Part, Plan, Shown};
 use super::plots::{GRAPHS, TIMES};
-
-pub use super::blueprint::send;
 
 /// An arrangement.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,89 +71,7 @@ impl Layout {
     }
 }
 
-/// What is laid out.
-#[derive(Clone, Debug)]
-pub struct Plan {
-    /// How.
-    pub layout: Layout,
-    /// Before the names of the entities of each flight.
-    pub roots: Vec<String>,
-}
-
-impl Plan {
-    /// Of flights with those roots.
-    pub fn new(layout: Layout, roots: &[&str]) -> Self {
-        Self { layout, roots: roots.iter().map(|root| format!("/{root}")).collect() }
-    }
-
-    /// Whether it is of two flights.
-    pub fn is_comparison(&self) -> bool {
-        self.roots.len() > 1
-    }
-
-    /// An entity of every flight.
-    pub fn each(&self, name: &str) -> Vec<String> {
-        self.roots.iter().map(|root| format!("{root}{name}")).collect()
-    }
-}
-
-/// A part of the screen: a view, or several parts in tabs, from left to right, or from top to bottom.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Part {
-    /// One view.
-    View(Shown),
-    /// A name and its parts.
-    Tabs(String, Vec<Part>),
-    /// The same, with the share of each.
-    Across(String, Vec<f32>, Vec<Part>),
-    /// The same.
-    Down(String, Vec<f32>, Vec<Part>),
-}
-
-/// What a view shows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shown {
-    /// The aircraft from beside it, without some parts of the world.
-    Aircraft {
-        /// The eye in the chase frame.
-        eye_m: [f32; 3],
-        /// Entities of the world.
-        without: &'static [&'static str],
-    },
-    /// The whole flight in space.
-    Overview,
-    /// The whole flight on a map.
-    Map,
-    /// The conversion corridor.
-    Corridor,
-    /// What happened, as a list.
-    Events,
-    /// Lanes of states.
-    Lanes {
-        /// Of the view.
-        name: &'static str,
-        /// Entities of every flight.
-        of: &'static str,
-    },
-    /// Lines over time.
-    Plot {
-        /// With the unit.
-        title: String,
-        /// Entities.
-        queries: Vec<String>,
-        /// Whether it says which line is which.
-        legend: bool,
-    },
-    /// A page of text.
-    Document {
-        /// Of the view.
-        name: &'static str,
-        /// Its entity.
-        entity: &'static str,
-    },
-}
-
-/// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::raw::RAW) is all axes.
+/// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::parts::RAW) is all axes.
 type Tab = (&'static str, &'static [&'static str]);
 
 const FLIGHT: Tab = ("Flight", &["height", "airspeed", "nacelle", "attitude", "pilot"]);
@@ -208,7 +125,7 @@ fn lanes() -> Part {
 
 /// The graph of that short name: title, and entity below a root.
 fn graph(name: &str) -> Option<(&'static str, &'static str)> {
-    if name == super::raw::RAW {
+    if name == super::parts::RAW {
         return Some(("Raw counts of every axis", "raw/**"));
     }
     let mut all = GRAPHS
@@ -305,6 +222,20 @@ fn compare(plan: &Plan) -> Part {
         queries: vec!["/delta/growth/**".into()],
         legend: true,
     }));
+    let both = |name, of| view(Shown::Lanes { name, of });
+    let lanes = Part::Tabs(
+        "What was on".into(),
+        vec![
+            both("Events of both", "modes/events"),
+            both("Nacelles of both", "modes/nacelles"),
+            both("Gear of both", "modes/gear"),
+            both("Flaps of both", "modes/flaps"),
+            both("SCAS of both", "modes/scas"),
+            both("Governor of both", "modes/governor"),
+            both("Failures of both", "modes/failures"),
+            both("Limits of the model", "validity/**"),
+        ],
+    );
     let largest = Shown::Document { name: "Largest differences", entity: "/delta/largest" };
     let left = vec![
         aircraft(BEHIND_M, NO_LOADS),
@@ -316,7 +247,7 @@ fn compare(plan: &Plan) -> Part {
         &[2.0, 3.0],
         vec![
             down("Where", &[4.0, 3.0, 3.0], left),
-            down("When", &[12.0, 12.0], vec![Part::Tabs("Plots".into(), plots), lanes()]),
+            down("When", &[17.0, 4.0], vec![Part::Tabs("Plots".into(), plots), lanes]),
         ],
     )
 }
@@ -336,7 +267,7 @@ mod tests {
     }
 
     fn all_of(layout: Layout, roots: &[&str]) -> Vec<Shown> {
-        let plan = Plan::new(layout.clone(), roots);
+        let plan = Plan::new(roots);
         let mut found = Vec::new();
         shown(&layout.tree(&plan), &mut found);
         found

@@ -14,8 +14,8 @@
 
 use serde::Deserialize;
 
-use super::fields::Field;
-use super::layout::{Part, Plan, Shown};
+use super::field::Field;
+use super::parts::{Part, Plan, Shown};
 
 /// The names by which a view of a file shows something that is no plot.
 const NAMES: [&str; 6] = ["aircraft", "overview", "map", "corridor", "events", "lanes"];
@@ -185,7 +185,7 @@ mod tests {
         let text = "[[tab]]\nname = \"Left\"\n[[tab.view]]\nfields = [\"rotors.left.thrust_n\", \
                     \"rotors.right.thrust_n\"]\n[[tab.view]]\nshow = \"corridor\"\n";
         let own = Own::parse(text).expect("a layout");
-        let Part::Tabs(_, tabs) = own.tree(&Plan::new(super::super::Layout::Pilot, &[""])) else {
+        let Part::Tabs(_, tabs) = own.tree(&Plan::new(&[""])) else {
             panic!("no tabs");
         };
         let Part::Down(name, _, views) = &tabs[0] else { panic!("no views") };

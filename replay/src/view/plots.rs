@@ -35,8 +35,8 @@ impl<T> Graph<T> {
     }
 }
 
-const LEFT: u32 = super::SIDES.left;
-const RIGHT: u32 = super::SIDES.right;
+const LEFT: u32 = super::basics::SIDES.left;
+const RIGHT: u32 = super::basics::SIDES.right;
 const PALE_LEFT: u32 = 0xFF_B0_A8_FF;
 const PALE_RIGHT: u32 = 0xA8_F0_B4_FF;
 const BLUE: u32 = 0x5B_A8_F5_FF;

@@ -7,10 +7,8 @@ use rerun::components::InterpolationMode;
 use rerun::{Scalars, SeriesLines};
 
 use super::canvas::{Canvas, times};
-use super::track::Look;
-
-/// Entities of all axes are below it.
-pub const RAW: &str = "raw";
+use super::look::Look;
+use super::parts::RAW;
 
 /// Colours of the axes, in the order in which they move.
 const COLOURS: [u32; 8] = [

@@ -5,9 +5,10 @@ use engine::frames::{Attitude, Ned, Structural, Vec3};
 use engine::landing_gear::Leg;
 use engine::math::{cos, sin};
 use engine::state::Geodetic;
-use rerun::{GeoPoints, LineStrips3D, Quaternion, SerializedComponentColumn, Transform3D};
+use rerun::{GeoPoints, LineStrips3D, Quaternion, Transform3D};
 
 use super::airframe::Mounts;
+use super::columns::{Columns, point};
 use super::forces::{self, ARROWS, Places};
 use super::scenery;
 
@@ -43,9 +44,6 @@ impl PathPoint {
         degrees(&self.place)
     }
 }
-
-/// What to send of some rows.
-pub type Columns = rerun::SerializationResult<Vec<SerializedComponentColumn>>;
 
 fn pose(
     rows: &[Outputs],
@@ -151,11 +149,6 @@ fn gear_columns(rows: &[Outputs], mounts: &Mounts) -> [(&'static str, Columns); 
         ("world/aircraft/airframe/gear_left", leg(|row| &row.landing_gear.main.left)),
         ("world/aircraft/airframe/gear_right", leg(|row| &row.landing_gear.main.right)),
     ]
-}
-
-/// As rerun takes it.
-pub fn point<F>(v: Vec3<F>) -> [f32; 3] {
-    [v.x as f32, v.y as f32, v.z as f32]
 }
 
 fn degrees(place: &Geodetic) -> [f64; 2] {

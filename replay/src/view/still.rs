@@ -7,13 +7,15 @@ use rerun::{
 };
 
 use super::airframe;
+use super::basics::SIDES;
+use super::columns::point;
 use super::forces::{self, ARROWS};
+use super::look::Look;
 use super::modes::MODES;
 use super::plots::{GRAPHS, Graph, TIMES};
-use super::scene::{PathPoint, point};
+use super::scene::PathPoint;
 use super::solid::{Point, Solid};
-use super::track::Look;
-use super::{SIDES, corridor, scenery, surfaces};
+use super::{corridor, scenery, surfaces};
 
 /// Posts under the path, at most.
 const POSTS_MAX: usize = 60;

@@ -8,7 +8,7 @@ use engine::aircraft::Params as Aircraft;
 use engine::frames::Vec3;
 use engine::units::{degrees, radians};
 
-use super::airframe::{BLUE, WHITE, section, station, wing_quarter_m};
+use super::sections::{BLUE, WHITE, section, station, wing_quarter_m};
 use super::solid::{Point, Solid};
 
 /// Flaps and flaperons begin here, in parts of the chord.

@@ -9,16 +9,20 @@ use logs::records::TimingRecord;
 use rerun::{LineStrips3D, Scalars, StateChange, TimeColumn};
 
 use super::airframe::Mounts;
+use super::basics::{Severity, TICKS_PER_ROW};
 use super::canvas::{Canvas, times};
+use super::columns::point;
+use super::corridor;
 use super::events::Events;
-use super::fields::{self, Channel, Field};
+use super::field::{Channel, Field};
+use super::fields;
 use super::forces::Places;
+use super::look::Look;
 use super::modes::{MODES, Seen};
 use super::plots::{GRAPHS, Graph, TIMES};
 use super::raw::Raw;
-use super::scene::{PathPoint, moving_columns, point};
+use super::scene::{PathPoint, moving_columns};
 use super::still::send_path;
-use super::{Severity, TICKS_PER_ROW, corridor};
 
 /// Rows gathered before they are written: ten seconds, about a megabyte.
 const ROWS_PER_CHUNK: usize = 500;
@@ -26,86 +30,6 @@ const ROWS_PER_CHUNK: usize = 500;
 const ROWS_PER_PIECE: usize = 5;
 /// The path is thinned by half when it has more points than this.
 pub const PATH_POINTS_MAX: usize = 8192;
-
-/// How a flight is told from another one in the same recording.
-#[derive(Clone, Debug)]
-pub struct Look {
-    /// Before the names of its entities.
-    pub root: String,
-    /// Before the names of its lines and events.
-    pub name: String,
-    /// Whether the ground goes with it.
-    pub ground: bool,
-    /// RGBA over the aircraft's own colours.
-    pub tint: u32,
-    /// RGBA of its marks on the map and in the corridor, and of the line behind it where that is not by
-    /// configuration.
-    pub flown: u32,
-    /// RGB of its whole path; the last byte is its own.
-    pub path: u32,
-    /// RGBA that is left of a line's colour.
-    pub line_mask: u32,
-    /// Added to the width of its lines.
-    pub line_width: f32,
-    /// Whether its trail is coloured by configuration.
-    pub by_mode: bool,
-}
-
-impl Look {
-    /// A flight by itself.
-    pub fn alone() -> Self {
-        Self {
-            root: String::new(),
-            name: String::new(),
-            ground: true,
-            tint: 0xFF_FF_FF_FF,
-            flown: 0xFF_C2_3A_FF,
-            path: 0x7F_D0_FF_00,
-            line_mask: 0xFF_FF_FF_FF,
-            line_width: 0.0,
-            by_mode: true,
-        }
-    }
-
-    /// The first of two: in its own colours, its path blue; its lines are broad and pale.
-    pub fn first(name: &str) -> Self {
-        Self {
-            root: format!("{name}/"),
-            name: format!("{name}: "),
-            flown: 0x58_B4_FF_FF,
-            path: 0x58_B4_FF_00,
-            line_mask: 0xFF_FF_FF_70,
-            line_width: 3.0,
-            by_mode: false,
-            ..Self::alone()
-        }
-    }
-
-    /// The flight beside it: the aircraft and its path are orange; its lines are thin, within the other's.
-    pub fn second(name: &str) -> Self {
-        Self {
-            root: format!("{name}/"),
-            name: format!("{name}: "),
-            ground: false,
-            tint: 0xFF_8A_30_FF,
-            flown: 0xFF_8A_30_FF,
-            path: 0xFF_8A_30_00,
-            line_width: -0.3,
-            by_mode: false,
-            ..Self::alone()
-        }
-    }
-
-    /// Its entity of that name.
-    pub fn entity(&self, name: &str) -> String {
-        format!("{}{name}", self.root)
-    }
-
-    /// RGBA of a piece of its trail that was flown in a configuration of that colour, RGB.
-    pub fn trail(&self, configuration: u32, opacity: u32) -> u32 {
-        (if self.by_mode { configuration } else { self.path }) | opacity
-    }
-}
 
 /// What is seen at a tick.
 #[derive(Clone, Copy)]
