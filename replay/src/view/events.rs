@@ -87,7 +87,7 @@ fn lane(all: &mut [(u64, Severity, String)]) -> Vec<(u64, &str)> {
     let mut changes: Vec<(u64, &str)> = Vec::new();
     for (number, (tick, _, words)) in all.iter().enumerate() {
         // Of several at once the first one is shown; the list has all.
-        if changes.last().is_some_and(|(before, _)| before == tick) {
+        if number > 0 && all[number - 1].0 == *tick {
             continue;
         }
         changes.push((*tick, words));
