@@ -57,7 +57,8 @@ impl Events {
 
     /// Writes the lane.
     pub fn finish(&mut self, canvas: &mut Canvas, look: &Look) {
-        let changes = lane(&mut self.all);
+        let end = canvas.span.map_or(u64::MAX, |(_, last)| last);
+        let changes = lane(&mut self.all, end);
         if changes.is_empty() {
             return;
         }
@@ -79,21 +80,29 @@ impl Events {
     }
 }
 
-/// What the lane shows from when on; nothing is an empty word.
-fn lane(all: &mut [(u64, Severity, String)]) -> Vec<(u64, &str)> {
-    all.sort_by_key(|(tick, ..)| *tick);
+fn gravity(severity: Severity) -> u8 {
+    match severity {
+        Severity::Error => 0,
+        Severity::Warning => 1,
+        Severity::Info => 2,
+    }
+}
+
+/// What the lane shows from when on, up to the end of the flight; nothing is an empty word. Of several at once
+/// the gravest is shown; the list has all.
+fn lane(all: &mut [(u64, Severity, String)], end: u64) -> Vec<(u64, &str)> {
+    all.sort_by_key(|(tick, severity, _)| (*tick, gravity(*severity)));
     let last = all.last().map_or(0, |(tick, ..)| *tick);
     let seen = engine::math::max(SEEN_S / STEP_S, SEEN_NORM * last as f64) as u64;
     let mut changes: Vec<(u64, &str)> = Vec::new();
     for (number, (tick, _, words)) in all.iter().enumerate() {
-        // Of several at once the first one is shown; the list has all.
         if number > 0 && all[number - 1].0 == *tick {
             continue;
         }
         changes.push((*tick, words));
         let until = tick.saturating_add(seen);
         let next = all[number + 1..].iter().map(|(next, ..)| next).find(|next| *next > tick);
-        if next.is_none_or(|next| *next > until) {
+        if until < end && next.is_none_or(|next| *next > until) {
             changes.push((until, ""));
         }
     }
@@ -109,12 +118,12 @@ mod tests {
         let mut all = vec![
             (5000, Severity::Info, "marker 1".into()),
             (0, Severity::Info, "exact".to_string()),
+            (5100, Severity::Info, "touchdown".into()),
             (5100, Severity::Error, "impact".into()),
-            (5100, Severity::Error, "the hull".into()),
         ];
-        let changes = lane(&mut all);
+        let changes = lane(&mut all, 6000);
         // A twentieth of this short flight is less than what is seen at least.
-        let expected = [(0, "exact"), (1000, ""), (5000, "marker 1"), (5100, "impact"), (6100, "")];
+        let expected = [(0, "exact"), (1000, ""), (5000, "marker 1"), (5100, "impact")];
         assert_eq!(changes, expected);
         assert_eq!(short("lift-off, climbing 0.03 m/s"), "lift-off");
     }
