@@ -84,9 +84,10 @@ pub fn run(args: &Args) -> Result<Status> {
     #[cfg(feature = "rerun")]
     {
         let output = output::Output::beside(&saved, args.common.force, &[out])?;
-        let (bytes, _) = crate::view::save(out, &output, &replay::Window::default())?;
+        let bytes = crate::view::save_default(out, &output)?;
         output.finish()?;
-        say!("{}: {}, for `rerun {0}`", saved.display(), logs::text::size(bytes));
+        let size = logs::text::size(bytes);
+        say!("{}: {size}, for `tiltrotor view {}`", saved.display(), out.display());
     }
     args.common.hold(&mut landing)?;
     Ok(status)

@@ -200,6 +200,9 @@ fn tell_states(diff: &Diff, most: usize) {
     fields.sort_by_key(|extent| (extent.first_tick, stage(extent)));
     some(&fields, most, |extent| tell_extent(extent));
     say!("{}", first.growth);
+    if let Some(noticed) = diff.noticed() {
+        say!("{noticed}");
+    }
 }
 
 fn tell_extent(extent: &Extent) {

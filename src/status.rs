@@ -75,6 +75,12 @@ impl Status {
         self as u8
     }
 
+    /// The one of that number; what is none is no result.
+    #[cfg(feature = "rerun")]
+    pub fn of_number(number: u8) -> Self {
+        Self::ALL.into_iter().find(|status| status.number() == number).unwrap_or(Unusable)
+    }
+
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {

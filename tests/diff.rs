@@ -10,7 +10,7 @@ use common::{
     DIVERGED, Forgery, OK, Said, UNUSABLE, flip_state_bit, folder, hover, place_of, text, tiltrotor,
 };
 use engine::inputs::DeviceEvent;
-use logs::records::{HARDWARE, INPUTS, InputsRecord, STATE};
+use logs::records::{HARDWARE, INPUTS, InputsRecord, STATE, StateRecord};
 use serde_json::Value;
 
 /// Five seconds by the pilot model.
@@ -61,13 +61,27 @@ fn one_bit_is_named_on_both_sides() {
         .says("  apart     1 ULP")
         .says("rad/s")
         .says("inputs: the same")
-        .says("the same again from tick 701");
+        .says("the same again from tick 701")
+        .says("a pilot would notice nothing");
     let (there, back) = (json(flight(), &log), json(&log, flight()));
     assert_eq!(there["first"]["a"], back["first"]["b"]);
     assert_ne!(there["first"]["a"], there["first"]["b"]);
     let field = &there["state"][0];
     assert_eq!((&field["ticks"], &field["ulps"]), (&1.into(), &1.into()), "{there:#}");
     assert_eq!(field["largest_tick"], 700);
+}
+
+#[test]
+fn what_a_pilot_would_notice_is_said_in_a_sentence() {
+    let log = forged("noticed", |log| {
+        let height = place_of::<StateRecord>("state.plant.position_m.z");
+        let place = &mut log.bytes(STATE, 700)[height..height + 8];
+        let down_m = f64::from_le_bytes(place.try_into().expect("a number"));
+        place.copy_from_slice(&(down_m - 4.0).to_le_bytes());
+    });
+    diff(flight(), &log)
+        .ends(DIVERGED)
+        .says("a pilot would notice: height up to 4.0 m apart, at tick 700 (2.800 s)");
 }
 
 #[test]

@@ -17,10 +17,6 @@ const KNOWN_CIRCLES: &[(&str, &[&str])] = &[
     ("logs", &["export", "export::csv", "export::flights", "export::parquet"]),
     ("recorder", &["pilots", "pilots::phase"]),
     ("replay", &["refly", "versions"]),
-    (
-        "replay",
-        &["view", "view::canvas", "view::layout", "view::plots", "view::scene", "view::track"],
-    ),
     ("tiltrotor", &["verify", "verify::forms", "verify::recordings"]),
 ];
 

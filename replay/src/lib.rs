@@ -10,6 +10,7 @@ pub mod growth;
 pub mod identify;
 pub mod judgement;
 mod made;
+mod notice;
 mod outputs;
 pub mod playback;
 mod refly;

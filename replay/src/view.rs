@@ -5,121 +5,80 @@
 //!   ground, grid            a plane and its lines that stay under the aircraft, in whole steps
 //!   pad                     where the origin is
 //!   chase                   where the aircraft is, turned with its heading: the eye's frame
-//!   path                    the whole flight, with a post to the ground now and then
-//!   flown                   the last half minute
+//!   path                    the whole flight by configuration, with a post to the ground now and then
+//!   flown                   the last half minute, by configuration
 //!   plumb                   from the aircraft straight down to the ground
+//!   wind                    where the air goes, over the aircraft
 //!   aircraft                body axes at the centre of gravity
 //!     airframe              drawing's axes turned to the body's: forward, right, down
+//!       flap_…, flaperon_…, elevator, rudder_…      turn about their hinges
+//!       gear_{nose,left,right}          move up and down, and are pressed in
 //!       nacelle_{left,right}            tilts about the pivot
-//!         rotor_{left,right}            turns about the mast
-//!       gear                            moves up and down
-//!     thrust_{left,right}   force of each rotor
+//!         tip_path_{left,right}         the gimballed disc on the mast
+//!           rotor_{left,right}          turns in it
+//!     forces, moments       arrows of the components
 //! /map                      the track in latitude and longitude
-//! /plots, /modes, /validity, /events      see `plots` and `layout`
+//! /corridor                 airspeed over incidence, see `corridor`
+//! /plots, /times, /raw, /fields           see `plots`, `raw`, `fields`
+//! /modes, /validity, /events              see `modes`, `events`
 //! ```
-//! Two flights in one recording ([`draw_against`]) are `/recorded/…` and `/reflown/…` with all of the above,
-//! and between them
+//! Two flights in one recording ([`draw_against`]) are below their names with all of the above, and between
+//! them
 //! ```text
-//! /delta/plots              reflown less recorded, of everything that is plotted
+//! /delta/plots              the second less the first, of everything that is plotted
 //! /delta/growth             logarithm of the difference in position, velocity, attitude, rates
 //! /delta/apart              a line in the world from one aircraft to the other
+//! /delta/largest            the largest difference of each line
 //! ```
 //! Times are `tick` and `sim_time`, both exact; nothing carries the wall clock. An `.rrd` is a
 //! rendering for the eye, in single precision where rerun has nothing else: the log is the truth.
 
 mod against;
 mod airframe;
+mod basics;
+mod blueprint;
 mod canvas;
+mod columns;
+pub mod control;
+mod corridor;
+mod events;
+mod field;
+mod fields;
 mod file;
+mod forces;
+mod largest;
 mod layout;
+mod look;
+mod modes;
+mod own;
+mod parts;
 mod plots;
+mod raw;
 mod scene;
 mod scenery;
+mod sections;
 mod solid;
+mod stamp;
+mod still;
+mod surfaces;
 mod track;
 
-use std::path::PathBuf;
-
-use engine::Outputs;
 use engine::aircraft::Params as Aircraft;
-use engine::pair::Pair;
 use logs::output::Output;
-use rerun::RecordingStreamError;
-use rerun::external::re_log_encoding::rrd::EncodeError;
-use rerun::sink::SinkFlushError;
+use logs::records::TimingRecord;
 
-use crate::judgement::{Judgement, Outcome};
-pub use against::{DrawError, Drawn, Other, draw_against};
+pub use against::{Comparison, DrawError, Drawn, Other, draw_against};
+pub use basics::{Severity, ViewError, level, severity};
+pub use canvas::About;
 use canvas::Canvas;
-use layout::Subject;
-use track::{ALONE, Track};
-
-/// Of this many ticks one is drawn: 50 Hz.
-const TICKS_PER_ROW: u64 = 5;
-/// Nanoseconds of the timeline that the viewer opens on.
-const SIM_TIME: &str = "sim_time";
-
-/// Left is red and right is green, as the navigation lights are.
-const SIDES: Pair<u32> = Pair { left: 0xE0_4A_3F_FF, right: 0x3F_B9_5A_FF };
-
-/// Why a flight could not be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum ViewError {
-    /// The file could not be made, or did not take everything: disk full, or taken away.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// Which file.
-        path: PathBuf,
-        /// What rerun, or through it the system, says.
-        source: EncodeError,
-    },
-    /// Rerun refused something.
-    #[error("cannot draw the flight for {}: {source}", path.display())]
-    Draw {
-        /// Which file.
-        path: PathBuf,
-        /// What rerun says.
-        source: Box<RecordingStreamError>,
-    },
-    /// Rerun stopped before everything was written.
-    #[error("the recording {} is incomplete: {source}", path.display())]
-    Flush {
-        /// Which file.
-        path: PathBuf,
-        /// What rerun says.
-        source: SinkFlushError,
-    },
-}
-
-/// How much an event matters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// Good to know: a marker, a device that appeared.
-    Info,
-    /// Needs attention: a device gone, a model beyond its data.
-    Warning,
-    /// Something failed.
-    Error,
-}
-
-impl Severity {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Info => rerun::TextLogLevel::INFO,
-            Self::Warning => rerun::TextLogLevel::WARN,
-            Self::Error => rerun::TextLogLevel::ERROR,
-        }
-    }
-}
-
-/// How much it matters what a log is.
-pub fn severity(judgement: &Judgement) -> Severity {
-    match judgement.outcome {
-        Outcome::Exact | Outcome::NotReflown => Severity::Info,
-        Outcome::NeverClosed | Outcome::Compared => Severity::Warning,
-        _ => Severity::Error,
-    }
-}
+use file::Saved;
+pub use layout::Layout;
+use look::Look;
+pub use own::{Own, OwnError};
+use parts::Plan;
+pub use stamp::{Mark, Stamp, Standing};
+pub use track::Moment;
+use track::Track;
 
 /// Draws a flight into an `.rrd` file while it is flown or reflown.
 ///
@@ -128,6 +87,7 @@ pub fn severity(judgement: &Judgement) -> Severity {
 /// never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
 /// the whole path.
 pub struct FlightView {
+    saved: Saved,
     canvas: Canvas,
     track: Track,
 }
@@ -135,33 +95,53 @@ pub struct FlightView {
 impl FlightView {
     /// Begins the file, which whoever asked for it finishes, with everything that does not move and the
     /// viewer's layout.
-    pub fn new(out: &Output, title: &str, aircraft: &Aircraft) -> Result<Self, ViewError> {
-        let canvas = Canvas::new(out, title, Subject::Flight, &[(&ALONE, aircraft)])?;
-        Ok(Self { canvas, track: Track::new(&ALONE, aircraft) })
+    pub fn new(
+        out: &Output,
+        about: &About,
+        layout: &Layout,
+        aircraft: &Aircraft,
+    ) -> Result<Self, ViewError> {
+        let saved = Saved::new(out)?;
+        let look = Look::alone();
+        let plan = (layout.clone(), Plan::new(&[&look.root]));
+        let drawn = [(&look, aircraft)];
+        let mut canvas = Canvas::begin(Box::new(saved.file.clone()), about, plan, &drawn)
+            .map_err(|error| saved.refused(error))?;
+        let track = Track::new(look, aircraft, layout.fields());
+        track.begin(&mut canvas);
+        Ok(Self { saved, canvas, track })
     }
 
-    /// Takes what a step gave. Call it every tick; one in five is drawn.
-    pub fn push(&mut self, outputs: &Outputs) {
-        self.track.push(&mut self.canvas, outputs);
+    /// Takes what was seen at a tick. Call it every tick; one in five is drawn.
+    pub fn push(&mut self, seen: Moment) {
+        self.track.push(&mut self.canvas, seen);
+    }
+
+    /// Takes how a tick kept time.
+    pub fn time(&mut self, timing: &TimingRecord) {
+        self.track.time(&mut self.canvas, timing);
     }
 
     /// Notes an event.
     pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
-        self.canvas.event(tick, level, text);
+        self.track.event(&mut self.canvas, tick, level, text);
     }
 
     /// Writes what is left and closes the file; its size in bytes.
-    pub fn finish(mut self) -> Result<u64, ViewError> {
+    pub fn finish(mut self, mark: Mark) -> Result<u64, ViewError> {
         self.track.finish(&mut self.canvas);
-        self.canvas.finish()
+        self.saved.finish(self.canvas, &mark.name())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use engine::Outputs;
     use engine::frames::{Euler, Vec3};
+    use engine::inputs::World;
     use engine::math::{FRAC_PI_2, clamp, cos, ramp, sin};
+    use engine::pair::Pair;
     use engine::state::Geodetic;
     use logs::LogError;
     use std::path::Path;
@@ -229,16 +209,23 @@ mod tests {
         now
     }
 
+    fn view(out: &Output, title: &str) -> Result<FlightView, ViewError> {
+        let about = About { title: title.into(), recording_id: "a-test".into() };
+        FlightView::new(out, &about, &Layout::Pilot, &xv15())
+    }
+
     fn draw(path: &Path, ticks: u64) -> u64 {
         let out = Output::beside(path, false, &[]).expect("a writable folder");
-        let mut view = FlightView::new(&out, "a climbing turn", &xv15()).expect("a recording");
+        let mut view = view(&out, "a climbing turn").expect("a recording");
         let mut outputs = Outputs::default();
         outputs.balance.cg_m = Vec3::new(7.65, 0.0, 2.074);
         outputs.position_m.z = -2.2;
         view.event(0, Severity::Info, "flight begins");
         for tick in 0..=ticks {
             outputs = flight(tick, &outputs);
-            view.push(&outputs);
+            let world = World::default();
+            view.push(Moment { outputs: &outputs, world: &world, events: &[] });
+            view.time(&TimingRecord { tick, step_ns: 20_000, ..TimingRecord::default() });
             if tick == 6 * SECOND {
                 view.event(tick, Severity::Info, "marker 1");
             }
@@ -246,7 +233,8 @@ mod tests {
                 view.event(tick, Severity::Warning, "rotor wake meets the tail");
             }
         }
-        let bytes = view.finish().expect("a disk with room");
+        let mark = Mark { status: 0, first_difference: None };
+        let bytes = view.finish(mark).expect("a disk with room");
         out.finish().expect("in its place");
         bytes
     }
@@ -264,7 +252,7 @@ mod tests {
     fn a_long_flight_keeps_a_short_path() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let out = Output::beside(&folder.path().join("long.rrd"), false, &[]).expect("a file");
-        let mut view = FlightView::new(&out, "long", &xv15()).expect("a recording");
+        let mut view = view(&out, "long").expect("a recording");
         let mut outputs = Outputs::default();
         for step in 0..20_000_u32 {
             outputs.position_m.x = f64::from(step) * 1.5;
@@ -279,6 +267,6 @@ mod tests {
         let missing = Path::new("/nonexistent/folder/flight.rrd");
         assert!(matches!(Output::beside(missing, false, &[]), Err(LogError::Create { .. })));
         let full = Output::beside(Path::new("/dev/full"), true, &[]).expect("a device");
-        assert!(matches!(FlightView::new(&full, "x", &xv15()), Err(ViewError::Write { .. })));
+        assert!(matches!(view(&full, "x"), Err(ViewError::Write { .. })));
     }
 }

@@ -7,9 +7,10 @@ mod with_rerun {
 
     use anyhow::{Context, Result};
     use logs::output::Output;
-    use replay::view::Other;
+    use replay::view::{Comparison, Other};
 
     use super::super::Run;
+    use crate::status::Status;
 
     /// Makes the folder: better before the logs are reflown than after.
     pub fn prepare(folder: &Path) -> Result<()> {
@@ -24,7 +25,10 @@ mod with_rerun {
         for verified in run.logs.iter().filter(parted) {
             let saved = folder.join(name(&verified.log));
             let output = Output::beside(&saved, true, &[&verified.log])?;
-            replay::view::draw_against(&verified.log, Other::Reflown, &output)
+            let title = verified.log.file_stem().unwrap_or_default().display().to_string();
+            let how = Comparison::of_reflight(&title);
+            let status = |_: &[_]| Status::Differs.number();
+            replay::view::draw_against(&verified.log, Other::Reflown, &output, &how, status)
                 .with_context(|| verified.log.display().to_string())?;
             output.finish()?;
             complain!("{}: recorded, reflown and the difference", saved.display());

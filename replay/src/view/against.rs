@@ -2,19 +2,26 @@
 
 use std::path::Path;
 
-use engine::inputs::World;
+use engine::inputs::{DeviceEvent, World};
 use engine::math::{PI, TAU, ln};
 use engine::{Aircraft, Inputs, State, observe, step};
 use logs::cdr;
 use logs::output::Output;
-use rerun::{LineStrips3D, Radius, Scalars, SeriesLines};
+use logs::view::Remark;
+use rerun::{LineStrips3D, MediaType, Radius, Scalars, SeriesLines, TextDocument};
 
-use super::canvas::{Canvas, times};
-use super::layout::Subject;
-use super::plots::PLOTS;
-use super::scene::point;
-use super::track::{RECORDED, REFLOWN, Track};
-use super::{Severity, TICKS_PER_ROW, ViewError, severity};
+use super::basics::{Severity, TICKS_PER_ROW, ViewError, level, severity};
+use super::canvas::{About, Canvas, times};
+use super::columns::point;
+use super::file::Saved;
+use super::largest::Largest;
+use super::layout::Layout;
+use super::look::Look;
+use super::parts::Plan;
+use super::plots::GRAPHS;
+use super::stamp::Mark;
+use super::still::send_graphs;
+use super::track::{Moment, Track};
 use crate::compare::Names;
 use crate::diff::{At, Cursor};
 use crate::judgement::Judgement;
@@ -28,6 +35,44 @@ pub enum Other<'a> {
     Log(&'a Path),
     /// The same log, reflown from its inputs.
     Reflown,
+}
+
+/// How two flights are drawn.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// What the recording is called.
+    pub about: About,
+    /// How it is arranged.
+    pub layout: Layout,
+    /// How both are called, everywhere.
+    pub names: [String; 2],
+    /// So many ticks later in the second log than in the first is what is laid beside it.
+    pub shift_ticks: i64,
+}
+
+impl Comparison {
+    /// Of a log and its reflight.
+    pub fn of_reflight(title: &str) -> Self {
+        Self {
+            about: About {
+                title: title.into(),
+                recording_id: format!("tiltrotor-reflown-{title}"),
+            },
+            layout: Layout::Compare,
+            names: ["recorded".into(), "reflown".into()],
+            shift_ticks: 0,
+        }
+    }
+
+    /// The tick of the second log that is laid beside one of the first.
+    fn beside(&self, tick: u64) -> Option<u64> {
+        tick.checked_add_signed(self.shift_ticks)
+    }
+
+    /// The tick of the first log that one of the second is laid beside.
+    fn back(&self, tick: u64) -> u64 {
+        tick.saturating_add_signed(self.shift_ticks.saturating_neg())
+    }
 }
 
 /// What was drawn.
@@ -56,60 +101,61 @@ const GROWTH: [(&str, &str, u32); 5] = [
 /// Draws the flight of `log` and another one beside it, tick by tick.
 ///
 /// Both are drawn from their states alone, by what the model of today says of them, so that the same
-/// states give the same picture.
+/// states give the same picture. `status` says with which status what the logs are is told.
 ///
 /// # Errors
 /// When a log cannot be read, or the recording not be written.
-pub fn draw_against(log: &Path, other: Other, saved: &Output) -> Result<Drawn, DrawError> {
-    let mut recorded = LoggedFlight::open(log)?;
+pub fn draw_against(
+    log: &Path,
+    other: Other,
+    saved: &Output,
+    how: &Comparison,
+    status: impl Fn(&[Judgement]) -> u8,
+) -> Result<Drawn, DrawError> {
+    let mut first = LoggedFlight::open(log)?;
     let mut other = match other {
         Other::Log(path) => Beside::Log(Box::new(LoggedFlight::open(path)?)),
-        Other::Reflown => Beside::Reflown(Box::new(recorded.first()?)),
+        Other::Reflown => Beside::Reflown(Box::new(first.first()?)),
     };
-    let title = log.file_stem().map_or_else(String::new, |stem| stem.display().to_string());
-    let aircraft = (&recorded.aircraft, other.aircraft(&recorded));
-    let drawn = [(&RECORDED, &**aircraft.0), (&REFLOWN, &**aircraft.1)];
-    let canvas = Canvas::new(saved, &title, Subject::Comparison, &drawn)?;
-    let mut page = Page::new(canvas, aircraft)?;
-    while let Some(at) = recorded.cursor.now.take() {
+    let file = Saved::new(saved)?;
+    let mut page = Page::new(&file, (&first.aircraft, other.aircraft(&first)), how)?;
+    while let Some(at) = first.cursor.now.take() {
         let world = world_of(&at);
         let state: State = cdr::decode(&at.state).map_err(ReplayError::from)?;
         let beside = match &mut other {
-            Beside::Log(flight) => flight.at(at.tick)?,
+            Beside::Log(flight) => match how.beside(at.tick) {
+                Some(tick) => flight.at(tick)?,
+                None => None,
+            },
             Beside::Reflown(reflown) => {
                 if let Some((events, inputs)) = &at.led {
                     let inputs = Inputs { events, world: inputs.world };
                     let before = at.restart.as_ref().map_or(**reflown, |restart| restart.state);
-                    **reflown = step(&recorded.aircraft, &before, &inputs).0;
+                    **reflown = step(&first.aircraft, &before, &inputs).0;
                 }
                 Some((**reflown, world))
             }
         };
-        let aircraft_beside = other.aircraft(&recorded);
+        let aircraft_beside = other.aircraft(&first);
+        let events = at.led.as_ref().map_or(&[][..], |(events, _)| events);
         page.add(
-            (&recorded.aircraft, &state, &world),
-            beside.as_ref().map(|(state, world)| (aircraft_beside, state, world)),
+            (&first.aircraft, &state, &world, events),
+            beside.as_ref().map(|(state, world)| (aircraft_beside, state, world, &[][..])),
         )?;
-        recorded.cursor.advance();
+        first.cursor.advance();
     }
-    let remarks = std::mem::take(&mut recorded.cursor.reader.remarks);
-    let start_tick = recorded.cursor.start_tick;
-    let mut judgements = vec![recorded.cursor.finish().judgement];
+    let start_tick = first.cursor.start_tick;
+    let mut judgements = Vec::new();
+    let (told, judgement) = first.told();
+    page.tell_first(start_tick, &judgement, &told);
+    judgements.push(judgement);
     if let Beside::Log(flight) = other {
-        judgements.push(flight.cursor.finish().judgement);
+        let (told, judgement) = flight.told();
+        page.tell_second(start_tick, &judgement, &told, how);
+        judgements.push(judgement);
     }
-    for judgement in &judgements {
-        page.canvas.event(start_tick, severity(judgement), &judgement.words);
-    }
-    for remark in &remarks {
-        let level = match remark.level {
-            logs::view::Level::Info => Severity::Info,
-            logs::view::Level::Warn => Severity::Warning,
-            logs::view::Level::Error => Severity::Error,
-        };
-        page.canvas.event(remark.time_ns / engine::STEP_NS, level, &remark.words);
-    }
-    page.finish(judgements)
+    let mark = Mark { status: status(&judgements), first_difference: page.first_difference };
+    page.finish(file, judgements, mark)
 }
 
 /// Why two flights could not be drawn.
@@ -152,6 +198,15 @@ impl LoggedFlight {
         Ok(Self { cursor, aircraft })
     }
 
+    /// Reads what is left: what was told in it, and what it is.
+    fn told(mut self) -> (Vec<Remark>, Judgement) {
+        while self.cursor.now.is_some() {
+            self.cursor.advance();
+        }
+        let remarks = std::mem::take(&mut self.cursor.reader.remarks);
+        (remarks, self.cursor.finish().judgement)
+    }
+
     fn first(&self) -> Result<State, ReplayError> {
         Ok(self.cursor.reader.initial)
     }
@@ -175,10 +230,11 @@ fn world_of(at: &At) -> World {
 /// What is being drawn.
 struct Page {
     canvas: Canvas,
-    recorded: Track,
-    reflown: Track,
+    first: Track,
+    second: Track,
     names: Names,
     rows: Vec<Row>,
+    largest: Largest,
     first_difference: Option<u64>,
 }
 
@@ -190,25 +246,23 @@ struct Row {
     apart: [[f32; 3]; 2],
 }
 
-/// A state in its world, and the aircraft.
-type InWorld<'a> = (&'a Aircraft, &'a State, &'a World);
+/// A state in its world, the aircraft, and what devices said for it.
+type InWorld<'a> = (&'a Aircraft, &'a State, &'a World, &'a [DeviceEvent]);
 
 impl Page {
     fn new(
-        mut canvas: Canvas,
-        (recorded, reflown): (&Aircraft, &Aircraft),
+        file: &Saved,
+        (of_first, of_second): (&Aircraft, &Aircraft),
+        how: &Comparison,
     ) -> Result<Self, DrawError> {
-        let names = Names::of::<State>().map_err(ReplayError::from)?;
-        for plot in PLOTS {
-            let sent = canvas.recording.log_static(
-                format!("delta/{}", plot.path),
-                &SeriesLines::new()
-                    .with_names([format!("Δ {}", plot.name)])
-                    .with_colors([plot.colour])
-                    .with_widths([plot.width]),
-            );
-            canvas.keep(sent);
-        }
+        let [first, second] = [Look::first(&how.names[0]), Look::second(&how.names[1])];
+        let plan = (how.layout.clone(), Plan::new(&[&first.root, &second.root]));
+        let drawn = [(&first, &**of_first), (&second, &**of_second)];
+        let mut canvas = Canvas::begin(Box::new(file.file.clone()), &how.about, plan, &drawn)
+            .map_err(|error| file.refused(error))?;
+        let delta = Look { root: "delta/".into(), ..Look::alone() };
+        let sent = send_graphs(&canvas.recording, &delta, GRAPHS, "Δ ");
+        canvas.keep(sent);
         for (number, (name, _, colour)) in GROWTH.into_iter().enumerate() {
             let lines =
                 SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([1.5]);
@@ -220,12 +274,17 @@ impl Page {
             .with_colors([0xFF_20_20_FF]);
         let sent = canvas.recording.log_static("delta/apart", &line);
         canvas.keep(sent);
+        let tracks = [(first, of_first), (second, of_second)]
+            .map(|(look, aircraft)| Track::new(look, aircraft, how.layout.fields()));
+        tracks.iter().for_each(|track| track.begin(&mut canvas));
+        let [first, second] = tracks;
         Ok(Self {
             canvas,
-            recorded: Track::new(&RECORDED, recorded),
-            reflown: Track::new(&REFLOWN, reflown),
-            names,
+            first,
+            second,
+            names: Names::of::<State>().map_err(ReplayError::from)?,
             rows: Vec::with_capacity(ROWS_PER_CHUNK),
+            largest: Largest::default(),
             first_difference: None,
         })
     }
@@ -237,19 +296,26 @@ impl Page {
         }
         // Only what is drawn is looked at.
         if !tick.is_multiple_of(TICKS_PER_ROW) {
+            self.first.say(tick, a.3);
             return Ok(());
         }
         let of_a = observe(a.0, a.1, a.2);
-        self.recorded.push(&mut self.canvas, &of_a);
+        let moment = Moment { outputs: &of_a, world: a.2, events: a.3 };
+        self.first.push(&mut self.canvas, moment);
         let Some(b) = b else { return Ok(()) };
-        let of_b = observe(b.0, b.1, b.2);
-        self.reflown.push(&mut self.canvas, &of_b);
+        let mut of_b = observe(b.0, b.1, b.2);
+        // It is laid beside the first one's.
+        of_b.tick = tick;
+        self.second.push(&mut self.canvas, Moment { outputs: &of_b, world: b.2, events: b.3 });
+        let lines =
+            GRAPHS.iter().flat_map(|graph| graph.lines.iter().map(move |line| (graph, line)));
+        let plots: Vec<f64> = lines
+            .map(|(graph, line)| difference(graph.entity, (line.of)(&of_a), (line.of)(&of_b)))
+            .collect();
+        self.largest.add(tick, &plots);
         self.rows.push(Row {
             tick,
-            plots: PLOTS
-                .iter()
-                .map(|plot| difference(plot.path, (plot.of)(&of_a), (plot.of)(&of_b)))
-                .collect(),
+            plots,
             growth: self.growth(a.1, b.1)?,
             apart: [point(of_a.position_m), point(of_b.position_m)],
         });
@@ -257,6 +323,32 @@ impl Page {
             self.flush();
         }
         Ok(())
+    }
+
+    /// What the first log is, and what happened in it.
+    fn tell_first(&mut self, start_tick: u64, judgement: &Judgement, remarks: &[Remark]) {
+        let (track, canvas) = (&mut self.first, &mut self.canvas);
+        track.event(canvas, start_tick, severity(judgement), &judgement.words);
+        for remark in remarks {
+            let tick = remark.time_ns / engine::STEP_NS;
+            track.event(canvas, tick, level(remark.level), &remark.words);
+        }
+    }
+
+    /// The same of the second one, at the first one's times.
+    fn tell_second(
+        &mut self,
+        start_tick: u64,
+        judgement: &Judgement,
+        remarks: &[Remark],
+        how: &Comparison,
+    ) {
+        let (track, canvas) = (&mut self.second, &mut self.canvas);
+        track.event(canvas, start_tick, severity(judgement), &judgement.words);
+        for remark in remarks {
+            let tick = how.back(remark.time_ns / engine::STEP_NS);
+            track.event(canvas, tick, level(remark.level), &remark.words);
+        }
     }
 
     fn look_for_difference(&mut self, tick: u64, a: &State, b: &State) -> Result<(), DrawError> {
@@ -277,7 +369,7 @@ impl Page {
                 "first difference: {} ({stage}), {} beside {}",
                 difference.name.path, difference.a, difference.b
             );
-            self.canvas.event(tick, Severity::Warning, &words);
+            self.first.event(&mut self.canvas, tick, Severity::Warning, &words);
         }
         Ok(())
     }
@@ -310,26 +402,44 @@ impl Page {
             let columns = Scalars::new(values).columns_of_unit_batches().map(Vec::from_iter);
             self.canvas.send(entity, &times, columns);
         };
-        for (number, plot) in PLOTS.iter().enumerate() {
-            let values = rows.iter().map(|row| row.plots[number]).collect();
-            send(&format!("delta/{}", plot.path), values);
-        }
         for number in 0..GROWTH.len() {
             send(&growth_entity(number), rows.iter().map(|row| row.growth[number]).collect());
+        }
+        let mut from = 0;
+        for graph in GRAPHS {
+            let to = from + graph.lines.len();
+            let values = rows.iter().flat_map(|row| row.plots[from..to].iter().copied());
+            let columns = Scalars::new(values)
+                .columns(std::iter::repeat_n(graph.lines.len(), rows.len()))
+                .map(Vec::from_iter);
+            self.canvas.send(&format!("delta/{}", graph.entity), &times, columns);
+            from = to;
         }
         let apart = LineStrips3D::new(rows.iter().map(|row| row.apart));
         let columns = apart.columns_of_unit_batches().map(Vec::from_iter);
         self.canvas.send("delta/apart", &times, columns);
     }
 
-    fn finish(mut self, judgements: Vec<Judgement>) -> Result<Drawn, DrawError> {
+    fn finish(
+        mut self,
+        file: Saved,
+        judgements: Vec<Judgement>,
+        mark: Mark,
+    ) -> Result<Drawn, DrawError> {
         self.flush();
-        self.recorded.finish(&mut self.canvas);
-        self.reflown.finish(&mut self.canvas);
         if self.first_difference.is_none() {
-            self.canvas.event(0, Severity::Info, "no difference: the same states to the bit");
+            let words = "no difference: the same states to the bit";
+            self.first.event(&mut self.canvas, 0, Severity::Info, words);
         }
-        let bytes = self.canvas.finish()?;
+        self.first.finish(&mut self.canvas);
+        self.second.finish(&mut self.canvas);
+        let names = [&self.first.look.name, &self.second.look.name];
+        let page =
+            self.largest.page(names.map(|name| name.trim_end_matches(": ")), self.first_difference);
+        let document = TextDocument::new(page).with_media_type(MediaType::markdown());
+        let sent = self.canvas.recording.log_static("delta/largest", &document);
+        self.canvas.keep(sent);
+        let bytes = file.finish(self.canvas, &mark.name())?;
         Ok(Drawn { bytes, first_difference: self.first_difference, judgements })
     }
 }
@@ -339,10 +449,10 @@ fn growth_entity(number: usize) -> String {
     format!("delta/growth/{group}")
 }
 
-/// Reflown less recorded; angles round the shorter way.
-fn difference(path: &str, recorded: f64, reflown: f64) -> f64 {
-    let apart = reflown - recorded;
-    if path.contains("_deg/heading") {
+/// The second less the first; angles round the shorter way.
+fn difference(entity: &str, first: f64, second: f64) -> f64 {
+    let apart = second - first;
+    if entity.ends_with("/heading") {
         let wrapped_rad = engine::math::wrap_angle(apart / 180.0 * PI);
         wrapped_rad / TAU * 360.0
     } else {

@@ -5,27 +5,24 @@
 //! Mast's with their origin at the pivot. Shapes are for recognition; pivots, hubs, rotors, spans and
 //! chords are those the aircraft is given.
 
+use engine::Outputs;
 use engine::aircraft::Params as Aircraft;
 use engine::display::{Fins, Fuselage, GearPods, Tailplane, Wheels, Wing};
 use engine::frames::{Structural, Vec3};
 use engine::math::{TAU, cos, sin, tan};
 use engine::pair::Pair;
+use engine::struts::Struts;
 use rerun::Mesh3D;
 use rerun::components::AlbedoFactor;
 
+use super::sections::{BLUE, WHITE, WHOLE, section, station, wing_quarter_m};
 use super::solid::{Point, Solid, refine, ring};
+use super::surfaces;
 
-const WHITE: u32 = 0xEC_EE_F0_FF;
-const BLUE: u32 = 0x24_57_A8_FF;
 const GLASS: u32 = 0x1C_2A_38_FF;
 const DARK: u32 = 0x3A_3E_44_FF;
 const BLADE: u32 = 0x2A_2C_30_FF;
 const TIP: u32 = 0xF2_C0_30_FF;
-
-/// A drawing's station in the airframe's axes.
-fn station(aft: f32, right: f32, up: f32) -> Point {
-    [-aft, right, -up]
-}
 
 /// Where the parts that move sit on the airframe.
 #[derive(Clone, Copy)]
@@ -36,6 +33,21 @@ pub struct Mounts {
     pub mast_m: f64,
     /// How far the gear moves up.
     pub gear_travel_m: f32,
+    /// Surfaces: where they turn and about what.
+    pub hinges: [Hinge; 7],
+}
+
+/// A surface without its shape.
+#[derive(Clone, Copy)]
+pub struct Hinge {
+    /// Entity.
+    pub entity: &'static str,
+    /// A point of the hinge.
+    pub at: Point,
+    /// Along the hinge.
+    pub axis: [f64; 3],
+    /// How far it is turned.
+    pub angle_rad: fn(&Outputs) -> f64,
 }
 
 impl Mounts {
@@ -47,6 +59,7 @@ impl Mounts {
                 .map(|right| station(x as f32, right as f32, z as f32)),
             mast_m: aircraft.rotors.mast_length_m,
             gear_travel_m: aircraft.landing_gear.retraction_m as f32,
+            hinges: hinges(aircraft),
         }
     }
 
@@ -54,6 +67,31 @@ impl Mounts {
     pub fn hub(&self) -> Point {
         [0.0, 0.0, -self.mast_m as f32]
     }
+}
+
+/// Below the airframe, by the names of the surfaces.
+const HINGED: [&str; 7] = [
+    "world/aircraft/airframe/flap_left",
+    "world/aircraft/airframe/flap_right",
+    "world/aircraft/airframe/flaperon_left",
+    "world/aircraft/airframe/flaperon_right",
+    "world/aircraft/airframe/elevator",
+    "world/aircraft/airframe/rudder_left",
+    "world/aircraft/airframe/rudder_right",
+];
+
+fn hinges(aircraft: &Aircraft) -> [Hinge; 7] {
+    let surfaces = surfaces::surfaces(aircraft);
+    HINGED.map(|entity| {
+        let surface = surfaces.iter().find(|surface| entity.ends_with(surface.name));
+        let still = Hinge { entity, at: [0.0; 3], axis: [0.0, 1.0, 0.0], angle_rad: |_| 0.0 };
+        surface.map_or(still, |surface| Hinge {
+            entity,
+            at: surface.hinge_m[0],
+            axis: surface.axis(),
+            angle_rad: surface.angle_rad,
+        })
+    })
 }
 
 /// Everything that neither tilts nor turns.
@@ -113,26 +151,29 @@ fn fuselage(solid: &mut Solid, shape: &Fuselage) {
 }
 
 fn wing(solid: &mut Solid, wing: &Wing) {
-    let Vec3 { x, y, z, .. } = wing.quarter_chord_m;
-    let rings: Vec<_> = [-0.5, 0.0, 0.5]
-        .iter()
-        .map(|part| {
-            let right = part * wing.span_m;
-            let out = right.abs() - y;
-            let aft = x + tan(wing.sweep_rad) * out;
-            let up = z + tan(wing.dihedral_rad) * out;
-            let quarter = Vec3::new(aft, right, up);
-            section(quarter, wing.chord_m, wing.thickness_ratio, false)
-        })
-        .collect();
-    solid.skin(&rings, |_, _| WHITE);
+    let half_span = 0.5 * wing.span_m;
+    let mut span = |from: f64, to: f64, part: [f32; 2]| {
+        let rings = [from, to].map(|right| {
+            let quarter = wing_quarter_m(wing, right);
+            section(quarter, wing.chord_m, wing.thickness_ratio, false, part)
+        });
+        solid.skin(&rings, |_, _| WHITE);
+    };
+    let ([inner, _], [_, outer]) = (surfaces::FLAP_M, surfaces::FLAPERON_M);
+    let before = [0.0, surfaces::WING_HINGE_NORM as f32];
+    for side in [-1.0, 1.0] {
+        span(0.0, side * inner, WHOLE);
+        span(side * inner, side * outer, before);
+        span(side * outer, side * half_span, WHOLE);
+    }
 }
 
 fn tailplane(solid: &mut Solid, plane: &Tailplane) {
     let rings = [-0.5, 0.5].map(|part| {
         let Vec3 { x, z, .. } = plane.quarter_chord_m;
         let quarter = Vec3::new(x, part * plane.span_m, z);
-        section(quarter, plane.chord_m, plane.thickness_ratio, false)
+        let before = [0.0, surfaces::TAIL_HINGE_NORM as f32];
+        section(quarter, plane.chord_m, plane.thickness_ratio, false, before)
     });
     solid.skin(&rings, |_, _| WHITE);
 }
@@ -148,7 +189,8 @@ fn fins(solid: &mut Solid, fins: &Fins) {
             .section_m
             .iter()
             .map(|&[up, chord, aft]| {
-                section(Vec3::new(aft, right, up), chord, fins.thickness_ratio, true)
+                let before = [0.0, surfaces::TAIL_HINGE_NORM as f32];
+                section(Vec3::new(aft, right, up), chord, fins.thickness_ratio, true, before)
             })
             .collect();
         let paint = |_, at: Point| if -at[2] > painted_from { BLUE } else { WHITE };
@@ -172,15 +214,22 @@ fn pods(solid: &mut Solid, pods: &GearPods) {
     }
 }
 
-/// Wheels and legs, extended.
-pub fn gear(aircraft: &Aircraft) -> Solid {
-    let mut solid = Solid::default();
+/// Wheels and leg of each strut, extended.
+pub fn gear(aircraft: &Aircraft) -> Struts<Solid> {
     let (gear, shape) = (&aircraft.landing_gear, &aircraft.display);
     let axle_m = shape.main_wheels.axle_m(&gear.main);
-    leg(&mut solid, &shape.nose_wheels, shape.nose_wheels.axle_m(&gear.nose));
-    leg(&mut solid, &shape.main_wheels, Vec3::new(axle_m.x, -axle_m.y, axle_m.z));
-    leg(&mut solid, &shape.main_wheels, axle_m);
-    solid
+    let one = |wheels: &Wheels, axle_m| {
+        let mut solid = Solid::default();
+        leg(&mut solid, wheels, axle_m);
+        solid
+    };
+    Struts {
+        nose: one(&shape.nose_wheels, shape.nose_wheels.axle_m(&gear.nose)),
+        main: Pair {
+            left: one(&shape.main_wheels, Vec3::new(axle_m.x, -axle_m.y, axle_m.z)),
+            right: one(&shape.main_wheels, axle_m),
+        },
+    }
 }
 
 fn leg(solid: &mut Solid, wheels: &Wheels, axle_m: Vec3<Structural>) {
@@ -271,28 +320,6 @@ pub fn disc(aircraft: &Aircraft, colour: u32) -> Mesh3D {
     solid.mesh().with_albedo_factor(AlbedoFactor::from(rerun::Rgba32(0xFF_FF_FF_48)))
 }
 
-/// A symmetric wing section around its quarter chord, flat or standing.
-fn section(
-    quarter_m: Vec3<Structural>,
-    chord_m: f64,
-    thickness_ratio: f64,
-    standing: bool,
-) -> Vec<Point> {
-    let [aft, right, up] = [quarter_m.x, quarter_m.y, quarter_m.z].map(|x| x as f32);
-    let (chord, thickness) = (chord_m as f32, thickness_ratio as f32);
-    ring(28, |s, c| {
-        // Cosine spacing from the trailing edge around the nose and back.
-        let along = 0.5 * (1.0 + c);
-        let half = thickness
-            * (1.4845 * along.sqrt() - 0.630 * along - 1.758 * along.powi(2)
-                + 1.4215 * along.powi(3)
-                - 0.518 * along.powi(4));
-        let off = s.signum() * half * chord;
-        let aft = aft + (along - 0.25) * chord;
-        if standing { station(aft, right + off, up) } else { station(aft, right, up + off) }
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -304,7 +331,10 @@ mod tests {
     #[test]
     fn every_corner_exists_and_every_number_is_finite() {
         let xv15 = xv15();
-        for solid in [airframe(&xv15), gear(&xv15), nacelle(&xv15), blades(&xv15)] {
+        let Struts { nose, main } = gear(&xv15);
+        let surfaces = surfaces::surfaces(&xv15).into_iter().map(|surface| surface.solid);
+        let fixed = [airframe(&xv15), nose, main.left, main.right, nacelle(&xv15), blades(&xv15)];
+        for solid in fixed.into_iter().chain(surfaces) {
             let count = u32::try_from(solid.positions.len()).unwrap();
             assert_eq!(solid.normals.len(), solid.positions.len());
             assert_eq!(solid.colours.len(), solid.positions.len());

@@ -1,55 +1,69 @@
-//! A recording that is written to a file, and the first thing that went wrong with it.
-
-use std::io;
-use std::path::PathBuf;
+//! A recording that is drawn on, and the first thing that went wrong with it.
 
 use engine::STEP_NS;
 use engine::aircraft::Params as Aircraft;
-use logs::output::Output;
-use rerun::external::re_log_encoding::rrd::EncodeError;
+use rerun::sink::LogSink;
 use rerun::{
-    RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult, TextLog,
+    RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult,
     TimeColumn,
 };
 
-use super::file::RrdFile;
-use super::layout::{self, Subject};
-use super::scene::{Columns, send_still_life};
-use super::track::Look;
-use super::{SIM_TIME, Severity, ViewError};
+use super::basics::SIM_TIME;
+use super::blueprint;
+use super::columns::Columns;
+use super::layout::Layout;
+use super::look::Look;
+use super::parts::Plan;
+use super::stamp::APPLICATION;
+use super::still::send_still_life;
 
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
+
+/// What a recording is called, and by what the viewer and we know it.
+#[derive(Clone, Debug, Default)]
+pub struct About {
+    /// Shown.
+    pub title: String,
+    /// Of the same recording the same; of any other, another one.
+    pub recording_id: String,
+}
 
 /// What is drawn on.
 pub struct Canvas {
     /// The recording.
     pub recording: RecordingStream,
-    file: RrdFile,
-    /// As it is named, and where it is until it is finished.
-    path: PathBuf,
-    unfinished: PathBuf,
-    kind: Subject,
+    /// First and last tick drawn.
+    pub span: Option<(u64, u64)>,
+    layout: Layout,
+    plan: Plan,
     error: Option<RecordingStreamError>,
 }
 
 impl Canvas {
-    /// Begins the file, which whoever asked for it finishes, with everything that does not move and the viewer's layout.
-    pub fn new(
-        out: &Output,
-        title: &str,
-        kind: Subject,
+    /// Begins a recording that knows no wall clock, with everything that does not move and the viewer's
+    /// layout.
+    pub fn begin(
+        sink: Box<dyn LogSink>,
+        about: &About,
+        (layout, plan): (Layout, Plan),
         drawn: &[(&Look, &Aircraft)],
-    ) -> Result<Self, ViewError> {
-        let path = out.path();
-        let file = out.file().map_err(|error| EncodeError::Write(io::Error::other(error)));
-        let file = file
-            .and_then(RrdFile::new)
-            .map_err(|source| ViewError::Write { path: path.into(), source })?;
-        let recording = begin(&file, title, kind, drawn)
-            .map_err(|source| ViewError::Draw { path: path.into(), source: Box::new(source) })?;
-        let unfinished = out.unfinished().into();
-        Ok(Self { recording, file, path: path.into(), unfinished, kind, error: None })
+    ) -> RecordingStreamResult<Self> {
+        // Of its properties only the name is sent: rerun would add when it began.
+        let recording = RecordingStreamBuilder::new(APPLICATION)
+            .recording_id(about.recording_id.as_str())
+            .enabled(true)
+            .send_properties(false)
+            .buffered()?;
+        recording.set_sink(sink);
+        recording.set_log_time_enabled(false);
+        recording.set_log_tick_enabled(false);
+        recording.send_recording_name(about.title.as_str())?;
+        drawn
+            .iter()
+            .try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
+        blueprint::send(&recording, 1, (&layout, &plan), "", None)?;
+        Ok(Self { recording, span: None, layout, plan, error: None })
     }
 
     /// Sends rows of an entity.
@@ -60,6 +74,12 @@ impl Canvas {
         self.keep(sent);
     }
 
+    /// Notes that a tick is drawn.
+    pub fn reach(&mut self, tick: u64) {
+        let (first, last) = self.span.unwrap_or((tick, tick));
+        self.span = Some((first.min(tick), last.max(tick)));
+    }
+
     /// Keeps the first error.
     pub fn keep(&mut self, sent: RecordingStreamResult<()>) {
         if let Err(error) = sent {
@@ -67,49 +87,12 @@ impl Canvas {
         }
     }
 
-    /// Notes an event.
-    pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
-        let columns = TextLog::new(text)
-            .with_level(level.name())
-            .columns_of_unit_batches()
-            .map(Vec::from_iter);
-        self.send("events", &times(&[tick]), columns);
-    }
-
-    /// Sends the layout once more and closes the file; its size in bytes.
-    pub fn finish(mut self) -> Result<u64, ViewError> {
-        let sent = layout::send(&self.recording, 2, self.kind);
+    /// Sends the layout once more, fitted to the whole, under a name that says `mark`; the first error.
+    pub fn end(mut self, mark: &str) -> (RecordingStream, Option<RecordingStreamError>) {
+        let sent = blueprint::send(&self.recording, 2, (&self.layout, &self.plan), mark, self.span);
         self.keep(sent);
-        // Waits until everything is in the file.
-        let flushed = self.recording.flush_blocking();
-        let Self { file, path, unfinished, error, .. } = self;
-        let closed = file.close().and_then(|()| Ok(std::fs::metadata(&unfinished)?.len()));
-        match (closed, error, flushed) {
-            (Err(source), ..) => Err(ViewError::Write { path, source }),
-            (_, Some(source), _) => Err(ViewError::Draw { path, source: Box::new(source) }),
-            (.., Err(source)) => Err(ViewError::Flush { path, source }),
-            (Ok(bytes), None, Ok(())) => Ok(bytes),
-        }
+        (self.recording, self.error)
     }
-}
-
-/// A recording into `file` that knows no wall clock, with everything that does not move.
-fn begin(
-    file: &RrdFile,
-    title: &str,
-    kind: Subject,
-    drawn: &[(&Look, &Aircraft)],
-) -> RecordingStreamResult<RecordingStream> {
-    // Of its properties only the name is sent: rerun would add when it began.
-    let recording =
-        RecordingStreamBuilder::new("tiltrotor").enabled(true).send_properties(false).buffered()?;
-    recording.set_sink(Box::new(file.clone()));
-    recording.set_log_time_enabled(false);
-    recording.set_log_tick_enabled(false);
-    recording.send_recording_name(title)?;
-    drawn.iter().try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
-    layout::send(&recording, 1, kind)?;
-    Ok(recording)
 }
 
 /// Both timelines of some rows.

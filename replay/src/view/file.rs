@@ -5,6 +5,8 @@
 //! not told at all (0.36.3, both seen). Here the first error is kept for [`RrdFile::close`].
 
 use std::fs::File;
+use std::io;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -12,6 +14,52 @@ use rerun::external::re_build_info::CrateVersion;
 use rerun::external::re_log_encoding::rrd::{EncodeError, Encoder, EncodingOptions};
 use rerun::external::re_log_types::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
+
+use logs::output::Output;
+
+use super::basics::ViewError;
+use super::canvas::Canvas;
+
+/// A recording's file, which whoever asked for it puts in its place.
+pub struct Saved {
+    /// What is written to.
+    pub file: RrdFile,
+    /// As it is named, and where it is until it is finished.
+    path: PathBuf,
+    unfinished: PathBuf,
+}
+
+impl Saved {
+    /// Begins it.
+    pub fn new(out: &Output) -> Result<Self, ViewError> {
+        let path: PathBuf = out.path().into();
+        let file = out.file().map_err(|error| EncodeError::Write(io::Error::other(error)));
+        let file = file
+            .and_then(RrdFile::new)
+            .map_err(|source| ViewError::Write { path: path.clone(), source })?;
+        Ok(Self { file, path, unfinished: out.unfinished().into() })
+    }
+
+    /// What rerun refused.
+    pub fn refused(&self, source: rerun::RecordingStreamError) -> ViewError {
+        ViewError::Draw { path: self.path.clone(), source: Box::new(source) }
+    }
+
+    /// Ends what was drawn and closes the file; its size in bytes.
+    pub fn finish(self, canvas: Canvas, mark: &str) -> Result<u64, ViewError> {
+        let (recording, error) = canvas.end(mark);
+        // Waits until everything is in the file.
+        let flushed = recording.flush_blocking();
+        let Self { file, path, unfinished } = self;
+        let closed = file.close().and_then(|()| Ok(std::fs::metadata(&unfinished)?.len()));
+        match (closed, error, flushed) {
+            (Err(source), ..) => Err(ViewError::Write { path, source }),
+            (_, Some(source), _) => Err(ViewError::Draw { path, source: Box::new(source) }),
+            (.., Err(source)) => Err(ViewError::Flush { path, source }),
+            (Ok(bytes), None, Ok(())) => Ok(bytes),
+        }
+    }
+}
 
 /// The file; clones are the same file.
 #[derive(Clone)]

@@ -5,409 +5,310 @@
 //! │ 3D, following    │ plots, in tabs   │
 //! │ the aircraft     │                  │
 //! ├──────────────────┤                  │
-//! │ overview │ map   │                  │
-//! ├──────────────────┼──────────────────┤
-//! │ events           │ modes; validity  │
+//! │ corridor,        ├──────────────────┤
+//! │ overview, map    │ lanes, on the    │
+//! ├──────────────────┤ plots' time axis │
+//! │ events           │                  │
 //! └──────────────────┴──────────────────┘
 //! ```
 //! Two flights have the same places; each plot has the difference beside it.
-//!
-//! Rerun's own builder (`rerun::blueprint::Blueprint`) cannot set a view's properties from Rust: no
-//! eye, no visible time, no legend. Its builder only logs archetypes to a recording of the
-//! blueprint kind, so this does the same with the archetypes themselves, which it exports.
 
-use rerun::blueprint::components::{
-    ActiveTab, BackgroundKind, ColumnShare, ContainerKind, Corner2D, Eye3DKind, PanelState,
-    RowShare, ViewClass,
-};
-use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg};
-use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, ContainerBlueprint, EyeControls3D, LineGrid3D, PanelBlueprint, PlotLegend,
-    TextLogColumns, TimeAxis, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
-    VisibleTimeRanges,
-};
-use rerun::external::re_sdk_types::blueprint::components::{self, RootContainer, TimelineName};
-use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
-use rerun::external::re_sdk_types::datatypes::{
-    TimeInt, TimeRange, TimeRangeBoundary, Uuid, VisibleTimeRange,
-};
-use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
+use super::field::Field;
+use super::own::Own;
+use super::parts::{Part, Plan, Shown};
+use super::plots::{GRAPHS, TIMES};
 
-/// How much of the line behind the aircraft is bright.
-const FLOWN_NS: i64 = 30_000_000_000;
+/// An arrangement.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Layout {
+    /// What a crew asks after a flight.
+    Pilot,
+    /// Everything.
+    Engineer,
+    /// Rotors, blades, loads; the aircraft from near, with every arrow.
+    Rotor,
+    /// How it kept time.
+    Latency,
+    /// Two flights, and the difference.
+    Compare,
+    /// One's own.
+    Own(Own),
+}
 
-/// Without it the viewer shows a minute around the cursor.
-const WHOLE_FLIGHT: components::TimeRange = components::TimeRange(TimeRange::EVERYTHING);
+impl Layout {
+    /// Those that have a name.
+    pub const NAMED: [(&'static str, Self); 5] = [
+        ("pilot", Self::Pilot),
+        ("engineer", Self::Engineer),
+        ("rotor", Self::Rotor),
+        ("latency", Self::Latency),
+        ("compare", Self::Compare),
+    ];
 
-/// Name of a view or container in the blueprint.
-type Id = String;
-
-/// A plot's name, and the entities it shows.
-type Graph = (&'static str, &'static [&'static str]);
-
-/// Tabs of plots, each with its plots from top to bottom.
-#[rustfmt::skip]
-const PLOT_TABS: &[(&str, &[Graph])] = &[
-    ("Flight", &[
-        ("height, m", &["plots/height_m"]),
-        ("airspeed, kt", &["plots/airspeed_kt"]),
-        ("nacelle incidence, deg", &["plots/nacelle_deg"]),
-        ("roll and pitch, deg", &["plots/attitude_deg/roll", "plots/attitude_deg/pitch"]),
-        ("pilot's controls", &["plots/pilot"]),
-    ]),
-    ("Motion", &[
-        ("heading, deg", &["plots/attitude_deg/heading"]),
-        ("body rates, deg/s", &["plots/rates_degps"]),
-        ("climb, ft/min", &["plots/climb_ft_per_min"]),
-        ("angle of attack and sideslip, deg", &["plots/air_deg"]),
-        ("load factor", &["plots/load_factor"]),
-    ]),
-    ("Controls", &[
-        ("pilot's controls", &["plots/pilot"]),
-        ("surfaces, deg", &["plots/surfaces_deg"]),
-        ("blade collective at 3/4 radius, deg", &["plots/blades_deg"]),
-        ("longitudinal cyclic, deg", &["plots/cyclic_deg"]),
-        ("nacelle incidence, deg", &["plots/nacelle_deg"]),
-    ]),
-    ("Rotors and engines", &[
-        ("rotor speed, rpm", &["plots/rotor_rpm"]),
-        ("power, kW", &["plots/power_kW"]),
-        ("torque at the mast, kN·m", &["plots/torque_kNm"]),
-        ("thrust, kN", &["plots/thrust_kN"]),
-        ("induced velocity, m/s", &["plots/induced_mps"]),
-    ]),
-    ("Gear and fuel", &[
-        ("ground's push, kN", &["plots/gear/push_kN"]),
-        ("gear extension", &["plots/gear/extension"]),
-        ("fuel, kg", &["plots/fuel_kg"]),
-    ]),
-];
-
-/// How a difference grows.
-const GROWTH: &[Graph] = &[("logarithm to base 10 of the difference", &["growth"])];
-
-/// Sends the layout, and has the viewer use it.
-///
-/// A view fits its axes, map and eye to what is there when it first appears. So a layout is sent
-/// twice: at the start for a flight that never ends, and at the end, as other views (`edition`), to
-/// be fitted to the whole flight.
-pub fn send(recording: &RecordingStream, edition: u8, kind: Subject) -> RecordingStreamResult<()> {
-    let Some(about) = recording.store_info() else { return Ok(()) };
-    let (stream, storage) = RecordingStreamBuilder::new(about.application_id().clone())
-        .enabled(true)
-        .send_properties(false)
-        .blueprint()
-        .memory()?;
-    stream.set_log_time_enabled(false);
-    // How the viewer knows a blueprint's data.
-    stream.set_time_sequence("blueprint", 0);
-    let mut page = Page { stream, edition, kind, named: 0 };
-    let root = page.root()?;
-    page.panels(root)?;
-
-    let messages = storage.take();
-    let blueprint = messages.iter().find_map(|message| match message {
-        LogMsg::SetStoreInfo(info) => Some(info.info.store_id.clone()),
-        _ => None,
-    });
-    if let Some(blueprint) = blueprint {
-        recording.send_blueprint(messages, BlueprintActivationCommand::make_active(blueprint));
+    /// The one of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, layout)| layout)
     }
-    Ok(())
-}
 
-/// What is laid out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Subject {
-    /// One flight.
-    Flight,
-    /// Two, and the difference.
-    Comparison,
-}
-
-impl Subject {
-    /// Before the names of the entities of each flight.
-    fn roots(self) -> &'static [&'static str] {
+    /// Fields of the log that it shows, each with its place in its view.
+    pub fn fields(&self) -> Vec<(usize, Field)> {
         match self {
-            Self::Flight => &["/"],
-            Self::Comparison => &["/recorded/", "/reflown/"],
+            Self::Own(own) => own.fields(),
+            _ => Vec::new(),
         }
     }
 
-    /// An entity of every flight.
-    fn each(self, name: &str) -> Vec<String> {
-        self.roots().iter().map(|root| format!("{root}{name}")).collect()
+    /// The arrangement.
+    pub fn tree(&self, plan: &Plan) -> Part {
+        match self {
+            Self::Pilot => pilot(plan),
+            Self::Engineer => engineer(plan),
+            Self::Rotor => rotor(plan),
+            Self::Latency => latency(plan),
+            Self::Compare => compare(plan),
+            Self::Own(own) => own.tree(plan),
+        }
     }
 }
 
-/// A layout that grows.
-struct Page {
-    stream: RecordingStream,
-    edition: u8,
-    kind: Subject,
-    named: u8,
+/// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::parts::RAW) is all axes.
+type Tab = (&'static str, &'static [&'static str]);
+
+const FLIGHT: Tab = ("Flight", &["height", "airspeed", "nacelle", "attitude", "pilot"]);
+const MOTION: Tab = ("Motion", &["heading", "rates", "climb", "flow", "load_factor"]);
+const CONTROLS: Tab = ("Control chain", &["raw", "pilot", "scas", "elevator", "flaperons"]);
+const BLADES: Tab =
+    ("Blades", &["collective", "cyclic", "flapping_aft", "flapping_outboard", "coning"]);
+const ROTORS: Tab = ("Rotors", &["rotor_speed", "thrust", "torque", "inflow", "blade_loading"]);
+const ENGINES: Tab = ("Engines", &["power", "torque", "rotor_speed", "fuel_flow", "fuel"]);
+const LOADS: Tab = ("Loads", &["force_x", "force_z", "moment_roll", "moment_pitch", "moment_yaw"]);
+const GEAR: Tab = ("Gear", &["gear_push", "gear_compression", "gear_extension", "wind", "stalled"]);
+const LATENCY: Tab = ("Latency", &["sent", "latency", "step", "slip", "overrun"]);
+
+/// Behind the aircraft, to its left and above it.
+const BEHIND_M: [f32; 3] = [-16.0, -12.5, -7.0];
+/// From near, before the right wing.
+const NEAR_M: [f32; 3] = [11.0, 9.0, -6.0];
+/// What a pilot does not look at.
+const NO_LOADS: &[&str] = &["aircraft/forces/airframe", "aircraft/forces/sum", "aircraft/moments"];
+/// Moments hide forces.
+const NO_MOMENTS: &[&str] = &["aircraft/moments"];
+
+fn view(shown: Shown) -> Part {
+    Part::View(shown)
 }
 
-impl Page {
-    fn root(&mut self) -> RecordingStreamResult<Uuid> {
-        let chase = self.chase()?;
-        let map = self.view("Map", "Map", "/", &self.kind.each("map/**"), &[])?;
-        let overview = self.overview()?;
-        let places =
-            self.container(ContainerKind::Horizontal, "Places", &[overview, map], &[1.0, 1.0])?;
-        let left =
-            self.container(ContainerKind::Vertical, "Where", &[chase, places], &[2.0, 1.0])?;
-
-        let mut tabs = Vec::new();
-        for (name, graphs) in PLOT_TABS {
-            let roots = self.kind.roots();
-            let plots = self.plots(name, graphs, roots, "")?;
-            tabs.push(match self.kind {
-                Subject::Flight => plots,
-                Subject::Comparison => {
-                    let delta = self.plots("Difference", graphs, &["/delta/"], "Δ ")?;
-                    self.container(ContainerKind::Horizontal, name, &[plots, delta], &[])?
-                }
-            });
-        }
-        if self.kind == Subject::Comparison {
-            tabs.push(self.plots("Growth", GROWTH, &["/delta/"], "")?);
-        }
-        let right = self.container(ContainerKind::Tabs, "Plots", &tabs, &[])?;
-        let above =
-            self.container(ContainerKind::Horizontal, "Flight", &[left, right], &[11.0, 10.0])?;
-
-        let columns = TextLogColumns::new().with_text_log_columns(
-            [TextLogColumnKind::LogLevel, TextLogColumnKind::Body].map(column),
-        );
-        let events = self.view(
-            "TextLog",
-            "Events",
-            "/events",
-            &["$origin/**".into()],
-            &[("TextLogColumns", &columns)],
-        )?;
-        let modes = self.kind.each("modes/**");
-        let modes = self.view("StateTimeline", "Modes", "/", &modes, &[])?;
-        let validity = self.kind.each("validity/**");
-        let validity = self.view("StateTimeline", "Validity", "/", &validity, &[])?;
-        let modes = self.container(ContainerKind::Tabs, "Lanes", &[modes, validity], &[])?;
-        let below =
-            self.container(ContainerKind::Horizontal, "Story", &[events, modes], &[11.0, 10.0])?;
-        let root = self.id();
-        self.put_container(root, ContainerKind::Vertical, "Review", &[above, below], &[3.0, 1.0])?;
-        Ok(root)
-    }
-
-    /// Flies along, behind and to the left of the aircraft, turning with its heading: the view's
-    /// origin is the chase frame. (An eye that tracks an entity goes with it only from where the
-    /// viewer happens to start, and loses it when time jumps.)
-    fn chase(&mut self) -> RecordingStreamResult<Id> {
-        let eye = EyeControls3D::new()
-            .with_kind(Eye3DKind::Orbital)
-            .with_position([-16.0, -12.5, -7.0])
-            .with_look_target([0.5, 0.0, -0.5])
-            .with_eye_up([0.0, 0.0, -1.0]);
-        let grid = LineGrid3D::new().with_visible(false);
-        let origin = format!("{}world/chase", self.kind.roots()[0]);
-        self.scene("Aircraft", &origin, &[], &eye, &grid)
-    }
-
-    /// Stands where the whole flight is seen; the ground would be most of what there is to frame.
-    fn overview(&mut self) -> RecordingStreamResult<Id> {
-        let eye = EyeControls3D::new().with_kind(Eye3DKind::Orbital).with_eye_up([0.0, 0.0, -1.0]);
-        let grid = LineGrid3D::new().with_spacing(10.0).with_color(0xFF_FF_FF_50);
-        let origin = format!("{}world", self.kind.roots()[0]);
-        let without: Vec<String> = ["ground", "grid"]
-            .into_iter()
-            .flat_map(|what| self.kind.each(&format!("world/{what}/**")))
-            .map(|entity| format!("- {entity}"))
-            .collect();
-        self.scene("Overview", &origin, &without, &eye, &grid)
-    }
-
-    fn scene(
-        &mut self,
-        name: &str,
-        origin: &str,
-        without: &[String],
-        eye: &EyeControls3D,
-        grid: &LineGrid3D,
-    ) -> RecordingStreamResult<Id> {
-        let mut queries = self.kind.each("world/**");
-        if self.kind == Subject::Comparison {
-            queries.push("/delta/apart".into());
-        }
-        queries.extend_from_slice(without);
-        let sky = Background::new(BackgroundKind::SolidColor).with_color(0x8F_B4_D6_FF);
-        let properties: &[(&str, &dyn AsComponents)] =
-            &[("EyeControls3D", eye), ("Background", &sky), ("LineGrid3D", grid)];
-        let id = self.view("3D", name, origin, &queries, properties)?;
-        let start = TimeRangeBoundary::CursorRelative(TimeInt(-FLOWN_NS));
-        let range = TimeRange { start, end: TimeRangeBoundary::AT_CURSOR };
-        let lately = VisibleTimeRange { timeline: super::SIM_TIME.into(), range };
-        let lately = VisibleTimeRanges::new([lately]);
-        for flown in self.kind.each("world/flown") {
-            let place = format!("{id}/ViewContents/overrides{flown}/visualizers");
-            self.stream.log(place, &lately)?;
-        }
-        Ok(id)
-    }
-
-    /// Plots from top to bottom, each with its lines under every root.
-    fn plots(
-        &mut self,
-        name: &str,
-        graphs: &[Graph],
-        roots: &[&str],
-        mark: &str,
-    ) -> RecordingStreamResult<Id> {
-        let mut plots = Vec::new();
-        for (name, paths) in graphs {
-            let of = |root: &&str| -> Vec<String> {
-                paths.iter().map(|path| format!("{root}{path}/**")).collect()
-            };
-            let queries: Vec<String> = roots.iter().flat_map(of).collect();
-            plots.push(self.plot(&format!("{mark}{name}"), &queries)?);
-        }
-        self.container(ContainerKind::Vertical, name, &plots, &[])
-    }
-
-    fn plot(&mut self, name: &str, queries: &[String]) -> RecordingStreamResult<Id> {
-        // Two columns of plots are too narrow for two legends: the same colours are in the other one.
-        let told =
-            self.kind == Subject::Flight || queries.iter().all(|of| of.starts_with("/delta/"));
-        let legend = PlotLegend::new().with_corner(Corner2D::LeftTop).with_visible(told);
-        let axis = TimeAxis::new().with_view_range(WHOLE_FLIGHT);
-        let properties: &[(&str, &dyn AsComponents)] =
-            &[("PlotLegend", &legend), ("TimeAxis", &axis)];
-        self.view("TimeSeries", name, "/", queries, properties)
-    }
-
-    fn view(
-        &mut self,
-        class: &str,
-        name: &str,
-        origin: &str,
-        queries: &[String],
-        properties: &[(&str, &dyn AsComponents)],
-    ) -> RecordingStreamResult<Id> {
-        let id = format!("view/{}", hyphenated(self.id()));
-        self.stream.log(
-            format!("{id}/ViewContents"),
-            &ViewContents::new(queries.iter().map(String::as_str)),
-        )?;
-        let view = ViewBlueprint::new(ViewClass(class.into()))
-            .with_display_name(name)
-            .with_space_origin(origin);
-        self.stream.log(id.as_str(), &view)?;
-        for (property, value) in properties {
-            self.stream.log(format!("{id}/{property}"), *value)?;
-        }
-        Ok(id)
-    }
-
-    fn container(
-        &mut self,
-        kind: ContainerKind,
-        name: &str,
-        contents: &[Id],
-        shares: &[f32],
-    ) -> RecordingStreamResult<Id> {
-        let id = self.id();
-        self.put_container(id, kind, name, contents, shares)
-    }
-
-    fn put_container(
-        &self,
-        id: Uuid,
-        kind: ContainerKind,
-        name: &str,
-        contents: &[Id],
-        shares: &[f32],
-    ) -> RecordingStreamResult<Id> {
-        let path = format!("container/{}", hyphenated(id));
-        let mut container = ContainerBlueprint::new(kind)
-            .with_display_name(name)
-            .with_contents(contents.iter().map(String::as_str));
-        container = match kind {
-            ContainerKind::Tabs => match contents.first() {
-                Some(first) => container.with_active_tab(ActiveTab(first.as_str().into())),
-                None => container,
-            },
-            _ if shares.is_empty() => container,
-            ContainerKind::Horizontal => {
-                container.with_col_shares(shares.iter().map(|&share| ColumnShare(share.into())))
-            }
-            _ => container.with_row_shares(shares.iter().map(|&share| RowShare(share.into()))),
-        };
-        self.stream.log(path.as_str(), &container)?;
-        Ok(path)
-    }
-
-    fn panels(&self, root: Uuid) -> RecordingStreamResult<()> {
-        let viewport = ViewportBlueprint::new()
-            .with_root_container(RootContainer(root))
-            .with_auto_layout(false)
-            .with_auto_views(false);
-        self.stream.log("viewport", &viewport)?;
-        let closed = PanelBlueprint::new().with_state(PanelState::Collapsed);
-        self.stream.log("blueprint_panel", &closed)?;
-        self.stream.log("selection_panel", &closed)?;
-        let time = TimePanelBlueprint::new()
-            .with_state(PanelState::Collapsed)
-            .with_timeline(TimelineName(super::SIM_TIME.into()));
-        self.stream.log("time_panel", &time)
-    }
-
-    fn id(&mut self) -> Uuid {
-        self.named += 1;
-        let mut bytes = *b"tiltrotor-view\0\0";
-        bytes[14] = self.edition;
-        bytes[15] = self.named;
-        Uuid { bytes }
-    }
+fn across(name: &str, shares: &[f32], parts: Vec<Part>) -> Part {
+    Part::Across(name.into(), shares.into(), parts)
 }
 
-fn column(kind: TextLogColumnKind) -> TextLogColumn {
-    TextLogColumn { kind, visible: true.into() }
+fn down(name: &str, shares: &[f32], parts: Vec<Part>) -> Part {
+    Part::Down(name.into(), shares.into(), parts)
 }
 
-fn hyphenated(id: Uuid) -> String {
-    let mut text = String::new();
-    for (i, byte) in id.bytes.iter().enumerate() {
-        if matches!(i, 4 | 6 | 8 | 10) {
-            text.push('-');
-        }
-        text.push_str(&format!("{byte:02x}"));
+fn aircraft(eye_m: [f32; 3], without: &'static [&'static str]) -> Part {
+    view(Shown::Aircraft { eye_m, without })
+}
+
+fn places(first: Shown) -> Part {
+    let all = [Shown::Corridor, Shown::Overview, Shown::Map];
+    let mut parts = vec![view(first.clone())];
+    parts.extend(all.into_iter().filter(|shown| *shown != first).map(view));
+    Part::Tabs("Places".into(), parts)
+}
+
+fn lanes() -> Part {
+    let modes = Shown::Lanes { name: "Lanes", of: "modes/**" };
+    let validity = Shown::Lanes { name: "Limits of the model", of: "validity/**" };
+    Part::Tabs("What was on".into(), vec![view(modes), view(validity)])
+}
+
+/// The graph of that short name: title, and entity below a root.
+fn graph(name: &str) -> Option<(&'static str, &'static str)> {
+    if name == super::parts::RAW {
+        return Some(("Raw counts of every axis", "raw/**"));
     }
-    text
+    let mut all = GRAPHS
+        .iter()
+        .map(|graph| (graph.title, graph.entity))
+        .chain(TIMES.iter().map(|graph| (graph.title, graph.entity)));
+    all.find(|(_, entity)| entity.rsplit('/').next() == Some(name))
+}
+
+/// A graph's plot, of every flight.
+fn plot(plan: &Plan, name: &str) -> Option<Part> {
+    let (title, entity) = graph(name)?;
+    Some(view(Shown::Plot { title: title.into(), queries: plan.each(entity), legend: true }))
+}
+
+fn tab(plan: &Plan, (name, graphs): Tab) -> Part {
+    down(name, &[], graphs.iter().filter_map(|graph| plot(plan, graph)).collect())
+}
+
+fn tabs(plan: &Plan, all: &[Tab]) -> Part {
+    Part::Tabs("Plots".into(), all.iter().map(|one| tab(plan, *one)).collect())
+}
+
+fn pilot(plan: &Plan) -> Part {
+    let left = vec![aircraft(BEHIND_M, NO_LOADS), places(Shown::Corridor), view(Shown::Events)];
+    let plots = tabs(plan, &[FLIGHT, MOTION, CONTROLS, ROTORS, ENGINES, GEAR]);
+    across(
+        "Pilot",
+        &[11.0, 10.0],
+        vec![
+            down("Where", &[5.0, 3.0, 2.0], left),
+            down("When", &[12.0, 10.0], vec![plots, lanes()]),
+        ],
+    )
+}
+
+fn engineer(plan: &Plan) -> Part {
+    let left = vec![aircraft(BEHIND_M, NO_MOMENTS), places(Shown::Corridor), view(Shown::Events)];
+    let all = [FLIGHT, CONTROLS, LOADS, ROTORS, BLADES, ENGINES, MOTION, GEAR, LATENCY];
+    across(
+        "Engineer",
+        &[2.0, 3.0],
+        vec![
+            down("Where", &[3.0, 2.0, 2.0], left),
+            down("When", &[12.0, 10.0], vec![tabs(plan, &all), lanes()]),
+        ],
+    )
+}
+
+fn rotor(plan: &Plan) -> Part {
+    let left = vec![aircraft(NEAR_M, &[]), places(Shown::Corridor), view(Shown::Events)];
+    let plots = across(
+        "Rotors",
+        &[],
+        vec![tabs(plan, &[ROTORS, ENGINES, GEAR]), tabs(plan, &[BLADES, LOADS, CONTROLS])],
+    );
+    across(
+        "Rotor",
+        &[1.0, 2.0],
+        vec![
+            down("Where", &[3.0, 2.0, 2.0], left),
+            down("When", &[12.0, 10.0], vec![plots, lanes()]),
+        ],
+    )
+}
+
+fn latency(plan: &Plan) -> Part {
+    let right = vec![aircraft(BEHIND_M, NO_LOADS), view(Shown::Events)];
+    let left = vec![tab(plan, LATENCY), lanes()];
+    across(
+        "Latency",
+        &[5.0, 2.0],
+        vec![down("When", &[12.0, 10.0], left), down("Where", &[1.0, 1.0], right)],
+    )
+}
+
+/// Graphs that are compared; times of ticks are the machine's, not the flight's.
+const COMPARED: [Tab; 8] = [FLIGHT, MOTION, CONTROLS, ROTORS, BLADES, ENGINES, LOADS, GEAR];
+
+fn compare(plan: &Plan) -> Part {
+    let pairs = COMPARED.iter().map(|(name, graphs)| {
+        let delta =
+            graphs.iter().filter_map(|name| graph(name)).filter(|(_, of)| !of.contains('*'));
+        let deltas = delta.map(|(title, entity)| {
+            let queries = vec![format!("/delta/{entity}")];
+            view(Shown::Plot { title: format!("Δ {title}"), queries, legend: true })
+        });
+        let difference = down("Difference", &[], deltas.collect());
+        across(name, &[], vec![tab(plan, (name, graphs)), difference])
+    });
+    let mut plots: Vec<Part> = pairs.collect();
+    plots.push(view(Shown::Plot {
+        title: "Growth of the difference, logarithm to base 10".into(),
+        queries: vec!["/delta/growth/**".into()],
+        legend: true,
+    }));
+    let both = |name, of| view(Shown::Lanes { name, of });
+    let lanes = Part::Tabs(
+        "What was on".into(),
+        vec![
+            both("Events of both", "modes/events"),
+            both("Nacelles of both", "modes/nacelles"),
+            both("Gear of both", "modes/gear"),
+            both("Flaps of both", "modes/flaps"),
+            both("SCAS of both", "modes/scas"),
+            both("Governor of both", "modes/governor"),
+            both("Failures of both", "modes/failures"),
+            both("Limits of the model", "validity/**"),
+        ],
+    );
+    let largest = Shown::Document { name: "Largest differences", entity: "/delta/largest" };
+    let left = vec![
+        aircraft(BEHIND_M, NO_LOADS),
+        places(Shown::Overview),
+        Part::Tabs("What differs".into(), vec![view(largest), view(Shown::Events)]),
+    ];
+    across(
+        "Comparison",
+        &[2.0, 3.0],
+        vec![
+            down("Where", &[4.0, 3.0, 3.0], left),
+            down("When", &[17.0, 4.0], vec![Part::Tabs("Plots".into(), plots), lanes]),
+        ],
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::plots::PLOTS;
 
-    #[test]
-    fn an_id_looks_as_the_viewer_expects() {
-        let bytes = [0xAB; 16];
-        assert_eq!(hyphenated(Uuid { bytes }), "abababab-abab-abab-abab-abababababab");
+    fn shown(part: &Part, found: &mut Vec<Shown>) {
+        match part {
+            Part::View(one) => found.push(one.clone()),
+            Part::Tabs(_, parts) | Part::Across(_, _, parts) | Part::Down(_, _, parts) => {
+                assert!(!parts.is_empty(), "{part:?} is empty");
+                parts.iter().for_each(|part| shown(part, found));
+            }
+        }
+    }
+
+    fn all_of(layout: Layout, roots: &[&str]) -> Vec<Shown> {
+        let plan = Plan::new(roots);
+        let mut found = Vec::new();
+        shown(&layout.tree(&plan), &mut found);
+        found
     }
 
     #[test]
-    fn every_plot_is_in_a_tab_and_every_tab_has_plots() {
-        let shown: Vec<&str> = PLOT_TABS
-            .iter()
-            .flat_map(|(_, plots)| *plots)
-            .flat_map(|(_, paths)| *paths)
-            .copied()
-            .collect();
-        for plot in PLOTS {
-            assert!(shown.iter().any(|path| plot.path.starts_with(path)), "{}", plot.path);
+    fn every_graph_is_in_the_engineer_s_layout_and_every_name_is_a_graph() {
+        let found = all_of(Layout::Engineer, &[""]);
+        for entity in GRAPHS.iter().map(|graph| graph.entity).chain(TIMES.iter().map(|g| g.entity))
+        {
+            let query = format!("/{entity}");
+            let drawn = found
+                .iter()
+                .any(|one| matches!(one, Shown::Plot { queries, .. } if queries.contains(&query)));
+            assert!(drawn, "{entity}");
         }
-        for path in shown {
-            assert!(PLOTS.iter().any(|plot| plot.path.starts_with(path)), "{path}");
+        for (tab, graphs) in COMPARED.iter().chain([&LATENCY]) {
+            for name in *graphs {
+                assert!(graph(name).is_some(), "{tab}: {name}");
+            }
         }
+    }
+
+    #[test]
+    fn lanes_are_below_the_plots_of_every_layout() {
+        for (name, layout) in Layout::NAMED {
+            let roots: &[&str] = if layout == Layout::Compare { &["a/", "b/"] } else { &[""] };
+            let found = all_of(layout, roots);
+            assert!(found.iter().any(|one| matches!(one, Shown::Lanes { .. })), "{name}");
+            assert!(found.contains(&Shown::Events), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_comparison_shows_both_and_the_difference() {
+        let found = all_of(Layout::Compare, &["calm/", "gusts/"]);
+        let of = |wanted: &[&str]| {
+            let wanted: Vec<String> = wanted.iter().map(|&one| one.into()).collect();
+            found.iter().any(|one| matches!(one, Shown::Plot { queries, .. } if *queries == wanted))
+        };
+        assert!(of(&["/calm/plots/height", "/gusts/plots/height"]));
+        assert!(of(&["/delta/plots/height"]));
     }
 }

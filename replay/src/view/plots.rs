@@ -1,16 +1,24 @@
-//! What is plotted, and which modes are shown: one line each.
-
-use std::sync::LazyLock;
+//! What is plotted: graphs, and the lines of each.
 
 use engine::Outputs;
-use engine::outputs::{Severity, Validity, ValidityFacts};
+use engine::frames::Load;
+use engine::outputs::Loads;
 use engine::pair::Pair;
-use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS};
+use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees};
+use logs::records::TimingRecord;
 
-/// One line of a plot.
-pub struct Plot {
-    /// Entity; its second part is the plot, with the unit.
-    pub path: &'static str,
+/// Lines over the same time, in one unit. Each graph is one entity with as many values in a row as lines.
+pub struct Graph<T: 'static> {
+    /// Entity.
+    pub entity: &'static str,
+    /// Its name with the unit.
+    pub title: &'static str,
+    /// Its lines.
+    pub lines: &'static [Line<T>],
+}
+
+/// One line of a graph.
+pub struct Line<T: 'static> {
     /// In the legend.
     pub name: &'static str,
     /// RGBA.
@@ -18,221 +26,246 @@ pub struct Plot {
     /// Broad where it lies below another that may equal it: left below right.
     pub width: f32,
     /// Its value.
-    pub of: fn(&Outputs) -> f64,
+    pub of: fn(&T) -> f64,
 }
 
-/// One lane of modes.
-pub struct Mode {
-    /// Entity.
-    pub path: String,
-    /// What it can be, and the colour of each.
-    pub values: Vec<(&'static str, u32)>,
-    reading: Reading,
-}
-
-/// How a mode is read off the outputs.
-enum Reading {
-    By(fn(&Outputs) -> &'static str),
-    Flag(&'static ValidityFacts),
-}
-
-impl Mode {
-    fn new(path: &str, values: &[(&'static str, u32)], of: fn(&Outputs) -> &'static str) -> Self {
-        Self { path: path.into(), values: values.into(), reading: Reading::By(of) }
-    }
-
-    /// The lane of a flag of validity.
-    fn of_flag(facts: &'static ValidityFacts) -> Self {
-        let set = (facts.words, severity_colour(facts.severity));
-        Self {
-            path: format!("validity/{}", facts.key),
-            values: vec![(WITHIN, QUIET), set],
-            reading: Reading::Flag(facts),
-        }
-    }
-
-    /// What it is.
-    pub fn of(&self, outputs: &Outputs) -> &'static str {
-        match self.reading {
-            Reading::By(of) => of(outputs),
-            Reading::Flag(facts) if outputs.validity.contains(facts.flag) => facts.words,
-            Reading::Flag(_) => WITHIN,
-        }
+impl<T> Graph<T> {
+    const fn new(entity: &'static str, title: &'static str, lines: &'static [Line<T>]) -> Self {
+        Self { entity, title, lines }
     }
 }
 
-const LEFT: u32 = super::SIDES.left;
-const RIGHT: u32 = super::SIDES.right;
+const LEFT: u32 = super::basics::SIDES.left;
+const RIGHT: u32 = super::basics::SIDES.right;
+const PALE_LEFT: u32 = 0xFF_B0_A8_FF;
+const PALE_RIGHT: u32 = 0xA8_F0_B4_FF;
 const BLUE: u32 = 0x5B_A8_F5_FF;
 const ORANGE: u32 = 0xF5_A0_3C_FF;
 const VIOLET: u32 = 0xB6_8C_F0_FF;
+const YELLOW: u32 = 0xF0_DC_50_FF;
+const CYAN: u32 = 0x48_D0_D0_FF;
 const WHITE: u32 = 0xE6_E6_E6_FF;
 const GREY: u32 = 0x8C_8C_8C_FF;
 
-type Value = fn(&Outputs) -> f64;
+type Value<T> = fn(&T) -> f64;
 
-const fn plot(path: &'static str, name: &'static str, colour: u32, of: Value) -> Plot {
-    Plot { path, name, colour, width: 1.5, of }
+const fn line<T>(name: &'static str, colour: u32, of: Value<T>) -> Line<T> {
+    Line { name, colour, width: 1.5, of }
 }
 
-const fn broad(path: &'static str, name: &'static str, colour: u32, of: Value) -> Plot {
-    Plot { path, name, colour, width: 3.5, of }
+const fn broad<T>(name: &'static str, colour: u32, of: Value<T>) -> Line<T> {
+    Line { name, colour, width: 3.5, of }
 }
 
-/// Everything plotted.
-#[rustfmt::skip]
-pub const PLOTS: &[Plot] = &[
-    broad("plots/height_m/above_ground", "above ground", ORANGE, |o| o.height_above_ground_m),
-    plot("plots/height_m/above_sea", "above sea", BLUE, |o| o.place.height_m),
-    broad("plots/airspeed_kt/calibrated", "calibrated", BLUE, |o| o.calibrated_airspeed_mps * KT_PER_MPS),
-    plot("plots/airspeed_kt/true", "true", GREY, |o| o.airspeed_mps * KT_PER_MPS),
-    plot("plots/climb_ft_per_min", "climb", ORANGE, |o| -o.velocity_mps.z * FPM_PER_MPS),
-    plot("plots/attitude_deg/roll", "roll, right +", BLUE, |o| o.euler.roll_rad.to_degrees()),
-    plot("plots/attitude_deg/pitch", "pitch, up +", ORANGE, |o| o.euler.pitch_rad.to_degrees()),
-    plot("plots/attitude_deg/heading", "heading", VIOLET, |o| o.euler.heading_rad.to_degrees().rem_euclid(360.0)),
-    plot("plots/rates_degps/p", "p roll", BLUE, |o| o.angular_rate_radps.x.to_degrees()),
-    plot("plots/rates_degps/q", "q pitch", ORANGE, |o| o.angular_rate_radps.y.to_degrees()),
-    plot("plots/rates_degps/r", "r yaw", VIOLET, |o| o.angular_rate_radps.z.to_degrees()),
-    plot("plots/air_deg/alpha", "angle of attack", ORANGE, |o| o.alpha_rad.to_degrees()),
-    plot("plots/air_deg/beta", "sideslip", VIOLET, |o| o.beta_rad.to_degrees()),
-    plot("plots/load_factor", "load factor", ORANGE, |o| o.load_factor),
-    plot("plots/pilot/stick_aft", "stick aft", ORANGE, |o| o.cockpit.stick_aft_norm),
-    plot("plots/pilot/stick_right", "stick right", BLUE, |o| o.cockpit.stick_right_norm),
-    plot("plots/pilot/collective", "collective", WHITE, |o| o.cockpit.collective_norm),
-    plot("plots/pilot/pedal_right", "right pedal", VIOLET, |o| o.cockpit.pedal_right_norm),
-    broad("plots/nacelle_deg/left", "left, 90 = helicopter", LEFT, |o| incidence_deg(o).left),
-    plot("plots/nacelle_deg/right", "right", RIGHT, |o| incidence_deg(o).right),
-    plot("plots/surfaces_deg/flap", "flap", WHITE, |o| o.actuators.flap_rad.to_degrees()),
-    broad("plots/surfaces_deg/flaperon_left", "left flaperon", LEFT, |o| o.actuators.flaperon_rad.left.to_degrees()),
-    plot("plots/surfaces_deg/flaperon_right", "right flaperon", RIGHT, |o| o.actuators.flaperon_rad.right.to_degrees()),
-    plot("plots/surfaces_deg/elevator", "elevator", ORANGE, |o| o.actuators.elevator_rad.to_degrees()),
-    plot("plots/surfaces_deg/rudder", "rudder right", VIOLET, |o| o.actuators.rudder_right_rad.to_degrees()),
-    broad("plots/blades_deg/collective_left", "left collective", LEFT, |o| o.actuators.collective_rad.left.to_degrees()),
-    plot("plots/blades_deg/collective_right", "right collective", RIGHT, |o| o.actuators.collective_rad.right.to_degrees()),
-    broad("plots/cyclic_deg/left", "left, forward +", LEFT, |o| o.actuators.cyclic_forward_rad.left.to_degrees()),
-    plot("plots/cyclic_deg/right", "right", RIGHT, |o| o.actuators.cyclic_forward_rad.right.to_degrees()),
-    plot("plots/rotor_rpm", "rotors", WHITE, |o| o.rotor_speed_radps * RPM_PER_RADPS),
-    broad("plots/power_kW/left", "left", LEFT, |o| 1e-3 * o.engines.power_w.left),
-    plot("plots/power_kW/right", "right", RIGHT, |o| 1e-3 * o.engines.power_w.right),
-    plot("plots/power_kW/available", "available", GREY, |o| 1e-3 * o.engines.available_w),
-    broad("plots/thrust_kN/left", "left", LEFT, |o| 1e-3 * o.rotors.left.thrust_n),
-    plot("plots/thrust_kN/right", "right", RIGHT, |o| 1e-3 * o.rotors.right.thrust_n),
-    broad("plots/torque_kNm/left", "left", LEFT, |o| 1e-3 * o.rotors.left.torque_n_m),
-    plot("plots/torque_kNm/right", "right", RIGHT, |o| 1e-3 * o.rotors.right.torque_n_m),
-    broad("plots/induced_mps/left", "left", LEFT, |o| o.rotors.left.induced_mps),
-    plot("plots/induced_mps/right", "right", RIGHT, |o| o.rotors.right.induced_mps),
-    plot("plots/gear/push_kN/nose", "nose", BLUE, |o| 1e-3 * o.landing_gear.nose.push_n),
-    broad("plots/gear/push_kN/left", "left", LEFT, |o| 1e-3 * o.landing_gear.main.left.push_n),
-    plot("plots/gear/push_kN/right", "right", RIGHT, |o| 1e-3 * o.landing_gear.main.right.push_n),
-    plot("plots/gear/extension", "gear, 1 = down", WHITE, |o| o.actuators.gear_extension_norm),
-    plot("plots/fuel_kg", "fuel", WHITE, |o| o.fuel_kg),
-];
-
-const QUIET: u32 = 0x4A_5A_6A_FF;
-const ACTIVE: u32 = 0x2F_7F_D0_FF;
-const CAUTION: u32 = 0xE0_9A_20_FF;
-const ALARM: u32 = 0xD0_40_38_FF;
-
-/// What a model is that is outside none of its limits.
-const WITHIN: &str = "within its data";
-
-fn severity_colour(severity: Severity) -> u32 {
-    match severity {
-        Severity::Caution => CAUTION,
-        Severity::Warning | Severity::Final => ALARM,
-    }
+/// A graph of something on both sides.
+macro_rules! sides {
+    ($entity:literal, $title:literal, $of:expr) => {
+        Graph::new(
+            $entity,
+            $title,
+            &[
+                broad("left", LEFT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $of;
+                    of(o).left
+                }),
+                line("right", RIGHT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $of;
+                    of(o).right
+                }),
+            ],
+        )
+    };
 }
 
-/// Every mode shown, and a lane for every flag of validity.
-pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
-    let told = Validity::FACTS.iter().map(|facts| (facts.words, severity_colour(facts.severity)));
-    let model: Vec<_> = [(WITHIN, QUIET)].into_iter().chain(told).collect();
-    let modes = [
-        Mode::new(
-            "modes/nacelles",
-            &[("helicopter", ACTIVE), ("converting", CAUTION), ("aeroplane", 0x30_90_60_FF)],
-            nacelles,
-        ),
-        Mode::new(
-            "modes/weight_on_wheels",
-            &[("on the ground", 0x8A_6A_48_FF), ("airborne", ACTIVE)],
-            ground,
-        ),
-        Mode::new(
-            "modes/gear",
-            &[("up", QUIET), ("moving", CAUTION), ("down", 0x30_90_60_FF)],
-            gear,
-        ),
-        Mode::new(
-            "modes/flaps",
-            &[("0", QUIET), ("20", 0x2A_5C_90_FF), ("40", ACTIVE), ("75", 0x58_A8_F0_FF)],
-            flaps,
-        ),
-        Mode::new("modes/scas", &[("off", ALARM), ("on", QUIET)], scas),
-        Mode::new(
-            "modes/rotor_speed",
-            &[("helicopter", ACTIVE), ("aeroplane 517", QUIET), ("aeroplane 458", QUIET)],
-            rotor_speed,
-        ),
-        Mode::new("modes/model", &model, model_validity),
-    ];
-    modes.into_iter().chain(Validity::FACTS.iter().map(Mode::of_flag)).collect()
-});
+/// A graph of what is asked for and what is there, on both sides.
+macro_rules! followed {
+    ($entity:literal, $title:literal, $asked:expr, $there:expr) => {
+        Graph::new(
+            $entity,
+            $title,
+            &[
+                broad("asked left", PALE_LEFT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $asked;
+                    degrees(of(o).left)
+                }),
+                broad("asked right", PALE_RIGHT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $asked;
+                    degrees(of(o).right)
+                }),
+                line("left", LEFT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $there;
+                    degrees(of(o).left)
+                }),
+                line("right", RIGHT, |o: &Outputs| {
+                    let of: fn(&Outputs) -> Pair<f64> = $there;
+                    degrees(of(o).right)
+                }),
+            ],
+        )
+    };
+}
+
+/// A graph of one part of the loads of every component.
+macro_rules! by_component {
+    ($entity:literal, $title:literal, $part:expr) => {
+        Graph::new(
+            $entity,
+            $title,
+            &[
+                broad("total", WHITE, |o: &Outputs| part(o.total, $part)),
+                broad("left rotor", LEFT, |o: &Outputs| part(o.loads.rotors.left, $part)),
+                line("right rotor", RIGHT, |o: &Outputs| part(o.loads.rotors.right, $part)),
+                line("wing and pylons", BLUE, |o: &Outputs| part(o.loads.wing_pylon.sum(), $part)),
+                line("fuselage", ORANGE, |o: &Outputs| part(o.loads.fuselage, $part)),
+                line("tailplane", VIOLET, |o: &Outputs| part(o.loads.horizontal_stabilizer, $part)),
+                line("fins", YELLOW, |o: &Outputs| part(o.loads.vertical_stabilizers.sum(), $part)),
+                line("gear", GREY, |o: &Outputs| part(gear(&o.loads), $part)),
+                line("engine jets", CYAN, |o: &Outputs| part(o.loads.jets.sum(), $part)),
+            ],
+        )
+    };
+}
+
+fn part(load: Load, of: fn(Load) -> f64) -> f64 {
+    1e-3 * of(load)
+}
+
+/// Of all three struts.
+pub fn gear(loads: &Loads) -> Load {
+    loads.landing_gear.main.sum() + loads.landing_gear.nose
+}
 
 /// As cockpits count: 90° as a helicopter.
 fn incidence_deg(outputs: &Outputs) -> Pair<f64> {
-    outputs.actuators.mast_tilt_rad.map(|tilt_rad| 90.0 - tilt_rad.to_degrees())
+    outputs.actuators.mast_tilt_rad.map(|tilt_rad| 90.0 - degrees(tilt_rad))
 }
 
-fn nacelles(outputs: &Outputs) -> &'static str {
-    match incidence_deg(outputs).mean() {
-        incidence_deg if incidence_deg > 85.0 => "helicopter",
-        incidence_deg if incidence_deg > 1.0 => "converting",
-        _ => "aeroplane",
-    }
+/// Everything plotted of what can be observed.
+#[rustfmt::skip]
+pub const GRAPHS: &[Graph<Outputs>] = &[
+    Graph::new("plots/height", "Height, m", &[
+        broad("above ground", ORANGE, |o| o.height_above_ground_m),
+        line("above sea", BLUE, |o| o.place.height_m),
+    ]),
+    Graph::new("plots/airspeed", "Airspeed, kt", &[
+        broad("calibrated", BLUE, |o| o.calibrated_airspeed_mps * KT_PER_MPS),
+        line("true", GREY, |o| o.airspeed_mps * KT_PER_MPS),
+    ]),
+    Graph::new("plots/climb", "Climb, ft/min", &[
+        line("climb", ORANGE, |o| -o.velocity_mps.z * FPM_PER_MPS),
+    ]),
+    Graph::new("plots/attitude", "Roll and pitch, deg", &[
+        line("roll, right +", BLUE, |o| degrees(o.euler.roll_rad)),
+        line("pitch, up +", ORANGE, |o| degrees(o.euler.pitch_rad)),
+    ]),
+    Graph::new("plots/heading", "Heading, deg", &[
+        line("heading", VIOLET, |o| degrees(o.euler.heading_rad).rem_euclid(360.0)),
+    ]),
+    Graph::new("plots/rates", "Body rates, deg/s", &[
+        line("p, roll", BLUE, |o| degrees(o.angular_rate_radps.x)),
+        line("q, pitch", ORANGE, |o| degrees(o.angular_rate_radps.y)),
+        line("r, yaw", VIOLET, |o| degrees(o.angular_rate_radps.z)),
+    ]),
+    Graph::new("plots/flow", "Angle of attack and sideslip, deg", &[
+        line("angle of attack", ORANGE, |o| degrees(o.alpha_rad)),
+        line("sideslip", VIOLET, |o| degrees(o.beta_rad)),
+    ]),
+    Graph::new("plots/load_factor", "Load factor, g", &[
+        line("load factor", ORANGE, |o| o.load_factor),
+    ]),
+    Graph::new("plots/wind", "Wind and turbulence, m/s", &[
+        line("from the south", BLUE, |o| o.air.wind_mps.x),
+        line("from the west", ORANGE, |o| o.air.wind_mps.y),
+        line("turbulence up", VIOLET, |o| -o.air.turbulence_mps.z),
+    ]),
+    Graph::new("plots/pilot", "Pilot's controls, norm", &[
+        line("stick aft", ORANGE, |o| o.cockpit.stick_aft_norm),
+        line("stick right", BLUE, |o| o.cockpit.stick_right_norm),
+        line("right pedal", VIOLET, |o| o.cockpit.pedal_right_norm),
+        line("power lever", WHITE, |o| o.cockpit.collective_norm),
+    ]),
+    Graph::new("plots/scas", "Added by the SCAS, mm of stick", &[
+        line("aft", ORANGE, |o| 1e3 * o.scas.aft_m),
+        line("right", BLUE, |o| 1e3 * o.scas.right_m),
+        line("right pedal", VIOLET, |o| 1e3 * o.scas.pedal_right_m),
+        line("trim, aft", WHITE, |o| 1e3 * o.scas.trim_aft_m),
+    ]),
+    sides!("plots/nacelle", "Nacelle incidence, deg (90 helicopter)", |o| incidence_deg(o)),
+    Graph::new("plots/elevator", "Elevator, rudder, flap, deg", &[
+        broad("elevator asked", GREY, |o| degrees(o.commands.elevator_rad)),
+        line("elevator", ORANGE, |o| degrees(o.actuators.elevator_rad)),
+        line("rudder right", VIOLET, |o| degrees(o.actuators.rudder_right_rad)),
+        line("flap", WHITE, |o| degrees(o.actuators.flap_rad)),
+    ]),
+    followed!("plots/flaperons", "Flaperons beyond the flaps, deg", |o| o.commands.flaperon_rad, |o| o.actuators.flaperon_rad),
+    followed!("plots/collective", "Collective at 3/4 radius, deg", |o| o.commands.collective_rad, |o| o.actuators.collective_rad),
+    followed!("plots/cyclic", "Longitudinal cyclic, forward +, deg", |o| o.commands.cyclic_forward_rad, |o| o.actuators.cyclic_forward_rad),
+    Graph::new("plots/rotor_speed", "Rotor speed, rpm", &[
+        line("both rotors", WHITE, |o| o.rotor_speed_radps * RPM_PER_RADPS),
+    ]),
+    sides!("plots/thrust", "Thrust, kN", |o| o.rotors.map(|rotor| 1e-3 * rotor.thrust_n)),
+    sides!("plots/torque", "Torque at the mast, kN·m", |o| o.rotors.map(|rotor| 1e-3 * rotor.torque_n_m)),
+    sides!("plots/inflow", "Induced velocity, m/s", |o| o.rotors.map(|rotor| rotor.induced_mps)),
+    sides!("plots/flapping_aft", "Tip path, aft +, deg", |o| o.rotors.map(|rotor| degrees(rotor.tilt_aft_rad))),
+    sides!("plots/flapping_outboard", "Tip path, outboard +, deg", |o| o.rotors.map(|rotor| degrees(rotor.tilt_outboard_rad))),
+    sides!("plots/coning", "Coning, deg", |o| o.rotors.map(|rotor| degrees(rotor.coning_rad))),
+    sides!("plots/blade_loading", "Blade loading, C_T/σ", |o| o.rotors.map(|rotor| rotor.blade_loading)),
+    sides!("plots/stalled", "Stalled part of the outer blades", |o| o.rotors.map(|rotor| rotor.stalled_norm)),
+    Graph::new("plots/power", "Engine power, kW", &[
+        broad("left", LEFT, |o| 1e-3 * o.engines.power_w.left),
+        line("right", RIGHT, |o| 1e-3 * o.engines.power_w.right),
+        line("available", GREY, |o| 1e-3 * o.engines.available_w),
+    ]),
+    Graph::new("plots/fuel", "Fuel, kg", &[line("aboard", WHITE, |o| o.fuel_kg)]),
+    Graph::new("plots/fuel_flow", "Fuel flow, kg/h", &[
+        line("both engines", ORANGE, |o| 3600.0 * o.engines.fuel_flow_kg_per_s),
+    ]),
+    Graph::new("plots/gear_push", "Ground's push, kN", &[
+        line("nose", BLUE, |o| 1e-3 * o.landing_gear.nose.push_n),
+        broad("left", LEFT, |o| 1e-3 * o.landing_gear.main.left.push_n),
+        line("right", RIGHT, |o| 1e-3 * o.landing_gear.main.right.push_n),
+    ]),
+    Graph::new("plots/gear_compression", "Strut compression, cm", &[
+        line("nose", BLUE, |o| 1e2 * o.landing_gear.nose.compression_m),
+        broad("left", LEFT, |o| 1e2 * o.landing_gear.main.left.compression_m),
+        line("right", RIGHT, |o| 1e2 * o.landing_gear.main.right.compression_m),
+    ]),
+    Graph::new("plots/gear_extension", "Gear, 1 = down", &[
+        line("gear", WHITE, |o| o.actuators.gear_extension_norm),
+    ]),
+    by_component!("plots/force_x", "Force forward, kN", |load| load.force_n.x),
+    by_component!("plots/force_z", "Force up, kN", |load| -load.force_n.z),
+    by_component!("plots/moment_roll", "Rolling moment, right +, kN·m", |load| load.moment_n_m.x),
+    by_component!("plots/moment_pitch", "Pitching moment, up +, kN·m", |load| load.moment_n_m.y),
+    by_component!("plots/moment_yaw", "Yawing moment, right +, kN·m", |load| load.moment_n_m.z),
+];
+
+fn ms(ns: u64) -> f64 {
+    ns as f64 * 1e-6
 }
 
-fn ground(outputs: &Outputs) -> &'static str {
-    if outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0 {
-        "on the ground"
-    } else {
-        "airborne"
-    }
-}
-
-fn gear(outputs: &Outputs) -> &'static str {
-    match outputs.actuators.gear_extension_norm {
-        extension if extension >= 1.0 => "down",
-        extension if extension <= 0.0 => "up",
-        _ => "moving",
-    }
-}
-
-fn flaps(outputs: &Outputs) -> &'static str {
-    match outputs.cockpit.flap_detent {
-        0 => "0",
-        1 => "20",
-        2 => "40",
-        _ => "75",
-    }
-}
-
-fn scas(outputs: &Outputs) -> &'static str {
-    if outputs.cockpit.scas_on == 0 { "off" } else { "on" }
-}
-
-fn rotor_speed(outputs: &Outputs) -> &'static str {
-    match outputs.cockpit.rpm_select {
-        0 => "helicopter",
-        1 => "aeroplane 517",
-        _ => "aeroplane 458",
-    }
-}
-
-/// The gravest of what it is outside of.
-fn model_validity(outputs: &Outputs) -> &'static str {
-    outputs.validity.gravest().map_or(WITHIN, |facts| facts.words)
-}
+/// How ticks kept time. Of the ticks of a row, the latest.
+#[rustfmt::skip]
+pub const TIMES: &[Graph<TimingRecord>] = &[
+    Graph::new("times/sent", "From due to the picture's packet, ms", &[
+        broad("lateness and all", ORANGE, |t| ms(t.late_ns.saturating_add(t.sent_ns))),
+        line("lateness alone", BLUE, |t| ms(t.late_ns)),
+    ]),
+    Graph::new("times/latency", "From an input in the kernel to the packet, ms", &[
+        // Without an input of hardware there is none.
+        line("each input of hardware", VIOLET, |t| if t.latency_ns == 0 { f64::NAN } else { ms(t.latency_ns) }),
+    ]),
+    Graph::new("times/step", "Work of a tick, ms", &[
+        line("flight model", ORANGE, |t| ms(t.step_ns)),
+        line("handing over to the log", BLUE, |t| ms(t.record_ns)),
+    ]),
+    Graph::new("times/slip", "Slips of the clock, ms", &[
+        line("slip", LEFT, |t| ms(t.slip_ns)),
+    ]),
+    Graph::new("times/overrun", "Overruns", &[
+        line("ended after the next tick was due", LEFT, |t| t.overrun as f64),
+    ]),
+];
 
 #[cfg(test)]
 mod tests {
@@ -240,55 +273,52 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn no_two_lines_share_a_path() {
-        let plots = PLOTS.iter().map(|plot| plot.path);
-        let paths = plots.chain(MODES.iter().map(|mode| mode.path.as_str()));
-        assert_eq!(paths.clone().collect::<BTreeSet<_>>().len(), paths.count());
+    fn no_two_graphs_share_an_entity_and_every_line_has_a_name_of_its_own() {
+        let entities = || {
+            GRAPHS.iter().map(|graph| graph.entity).chain(TIMES.iter().map(|graph| graph.entity))
+        };
+        assert_eq!(entities().collect::<BTreeSet<_>>().len(), entities().count());
+        for graph in GRAPHS {
+            let names: BTreeSet<_> = graph.lines.iter().map(|line| line.name).collect();
+            assert_eq!(names.len(), graph.lines.len(), "{}", graph.entity);
+        }
     }
 
-    fn lanes(outputs: &Outputs) -> Vec<(&'static str, &'static str)> {
-        MODES.iter().map(|mode| (mode.path.as_str(), mode.of(outputs))).collect()
-    }
-
-    /// Of all 64 bits, those that the engine names: by the bits, not by the list that is shown.
+    /// A line with a number has a unit: in the title, unless it counts or is a ratio.
     #[test]
-    fn every_validity_bit_has_its_lane_and_changes_that_one_and_the_model_s() {
-        let within = lanes(&Outputs::default());
-        for bit in 0..64 {
-            let flag = Validity::from_bits_retain(1 << bit);
-            let outside = lanes(&Outputs { validity: flag, ..Outputs::default() });
-            let changed: Vec<&str> = within
-                .iter()
-                .zip(&outside)
-                .filter(|(before, after)| before != after)
-                .map(|(before, _)| before.0)
-                .collect();
-            if Validity::all().contains(flag) {
-                let facts = flag.gravest().expect("told");
-                assert_eq!(changed, ["modes/model", &format!("validity/{}", facts.key)]);
-                assert!(outside.contains(&("modes/model", facts.words)), "{}", facts.key);
-            } else {
-                assert!(changed.is_empty(), "bit {bit} has no name, and shows as {changed:?}");
-            }
+    fn every_graph_says_its_unit() {
+        let ratios =
+            ["plots/blade_loading", "plots/stalled", "plots/gear_extension", "times/overrun"];
+        for (entity, title) in GRAPHS
+            .iter()
+            .map(|graph| (graph.entity, graph.title))
+            .chain(TIMES.iter().map(|graph| (graph.entity, graph.title)))
+        {
+            let said = title.contains(", ") || ratios.contains(&entity);
+            assert!(said, "{entity}: {title}");
         }
     }
 
     #[test]
-    fn every_mode_has_a_colour() {
-        let flags = (0..64).map(|bit| Validity::from_bits_retain(1 << bit));
-        for validity in flags.chain([Validity::empty(), Validity::all()]) {
-            let outputs = Outputs { validity, ..Outputs::default() };
-            for mode in MODES.iter() {
-                let value = mode.of(&outputs);
-                assert!(mode.values.iter().any(|(known, _)| *known == value), "{value}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_wreck_is_not_within_its_data() {
-        let outputs = Outputs { validity: Validity::HULL, ..Outputs::default() };
-        assert!(lanes(&outputs).contains(&("modes/model", "hull on the ground")));
-        assert!(lanes(&outputs).contains(&("validity/hull", "hull on the ground")));
+    fn the_forces_of_the_components_are_the_total() {
+        let mut outputs = Outputs::default();
+        let mut n = 0.0;
+        let mut load = || {
+            n += 1000.0;
+            Load { force_n: engine::frames::Vec3::new(n, 0.0, -n), ..Load::default() }
+        };
+        outputs.loads.rotors = Pair { left: load(), right: load() };
+        outputs.loads.wing_pylon = Pair { left: load(), right: load() };
+        outputs.loads.fuselage = load();
+        outputs.loads.horizontal_stabilizer = load();
+        outputs.loads.vertical_stabilizers = Pair { left: load(), right: load() };
+        outputs.loads.jets = Pair { left: load(), right: load() };
+        outputs.loads.landing_gear.nose = load();
+        outputs.total = outputs.loads.total();
+        let graph = GRAPHS.iter().find(|graph| graph.entity == "plots/force_z").expect("a graph");
+        let values: Vec<f64> = graph.lines.iter().map(|line| (line.of)(&outputs)).collect();
+        let parts: f64 = values[1..].iter().sum();
+        assert!((values[0] - parts).abs() < 1e-9, "{values:?}");
+        assert!((values[0] - 66.0).abs() < 1e-9, "{values:?}");
     }
 }

@@ -3,13 +3,26 @@
 use engine::Outputs;
 use engine::aircraft::Params as Aircraft;
 use engine::frames::{Ned, Vec3};
-use rerun::{LineStrips3D, Scalars, StateChange};
+use engine::inputs::{DeviceEvent, World};
+use logs::cdr;
+use logs::records::TimingRecord;
+use rerun::{LineStrips3D, Scalars, StateChange, TimeColumn};
 
-use super::TICKS_PER_ROW;
 use super::airframe::Mounts;
+use super::basics::{Severity, TICKS_PER_ROW};
 use super::canvas::{Canvas, times};
-use super::plots::{MODES, PLOTS};
-use super::scene::{PathPoint, moving_columns, point, send_path};
+use super::columns::point;
+use super::corridor;
+use super::events::Events;
+use super::field::{Channel, Field};
+use super::fields;
+use super::forces::Places;
+use super::look::Look;
+use super::modes::{MODES, Seen};
+use super::plots::{GRAPHS, Graph, TIMES};
+use super::raw::Raw;
+use super::scene::{PathPoint, moving_columns};
+use super::still::send_path;
 
 /// Rows gathered before they are written: ten seconds, about a megabyte.
 const ROWS_PER_CHUNK: usize = 500;
@@ -18,68 +31,37 @@ const ROWS_PER_PIECE: usize = 5;
 /// The path is thinned by half when it has more points than this.
 pub const PATH_POINTS_MAX: usize = 8192;
 
-/// How a flight is told from another one in the same recording.
-pub struct Look {
-    /// Before the names of its entities.
-    pub root: &'static str,
-    /// Before the names of its lines.
-    pub name: &'static str,
-    /// Whether the ground goes with it.
-    pub ground: bool,
-    /// RGBA over the aircraft's own colours.
-    pub tint: u32,
-    /// RGBA of the line behind it, and of its mark on the map.
-    pub flown: u32,
-    /// RGB of its whole path; the last byte is its own.
-    pub path: u32,
-    /// RGBA that is left of a line's colour.
-    pub line_mask: u32,
-    /// Added to the width of its lines.
-    pub line_width: f32,
+/// What is seen at a tick.
+#[derive(Clone, Copy)]
+pub struct Moment<'a> {
+    /// What can be observed.
+    pub outputs: &'a Outputs,
+    /// Weather and failures.
+    pub world: &'a World,
+    /// What devices said for it.
+    pub events: &'a [DeviceEvent],
 }
-
-/// A flight by itself.
-pub const ALONE: Look = Look {
-    root: "",
-    name: "",
-    ground: true,
-    tint: 0xFF_FF_FF_FF,
-    flown: 0xFF_C2_3A_FF,
-    path: 0x7F_D0_FF_00,
-    line_mask: 0xFF_FF_FF_FF,
-    line_width: 0.0,
-};
-
-/// The flight that was recorded: in its own colours; its lines are broad and pale.
-pub const RECORDED: Look = Look {
-    root: "recorded/",
-    name: "recorded: ",
-    line_mask: 0xFF_FF_FF_70,
-    line_width: 3.0,
-    ..ALONE
-};
-
-/// The flight beside it: the aircraft is orange; its lines are thin, within the other's.
-pub const REFLOWN: Look = Look {
-    root: "reflown/",
-    name: "reflown: ",
-    ground: false,
-    tint: 0xFF_8A_30_FF,
-    flown: 0xFF_5A_C8_FF,
-    path: 0xFF_8A_C0_00,
-    line_mask: 0xFF_FF_FF_FF,
-    line_width: -0.3,
-};
 
 /// A flight that is drawn.
 ///
 /// Memory hardly grows with it: ten seconds of rows, and a path that is thinned.
 pub struct Track {
-    look: &'static Look,
+    /// How it is told from others.
+    pub look: Look,
+    aircraft: Aircraft,
     mounts: Mounts,
+    places: Places,
+    own: Vec<(usize, Field)>,
     rows: Vec<Outputs>,
+    times: Vec<TimingRecord>,
+    raw: Raw,
+    axes_told: Vec<(u64, u64)>,
     flown_to_m: Option<Vec3<Ned>>,
     modes: Vec<Option<&'static str>>,
+    events: Events,
+    trace: corridor::Trace,
+    /// Rows between two writings.
+    pub rows_per_chunk: usize,
     /// The path.
     pub trail: Vec<PathPoint>,
     /// Least distance between its points.
@@ -87,36 +69,96 @@ pub struct Track {
 }
 
 impl Track {
-    /// One that has not begun.
-    pub fn new(look: &'static Look, aircraft: &Aircraft) -> Self {
+    /// One that has not begun; with fields of one's own.
+    pub fn new(look: Look, aircraft: &Aircraft, own: Vec<(usize, Field)>) -> Self {
         Self {
             look,
+            aircraft: aircraft.clone(),
             mounts: Mounts::of(aircraft),
+            places: Places::of(aircraft),
+            own,
             rows: Vec::with_capacity(ROWS_PER_CHUNK),
+            times: Vec::with_capacity(ROWS_PER_CHUNK),
+            raw: Raw::default(),
+            axes_told: Vec::new(),
             flown_to_m: None,
             modes: vec![None; MODES.len()],
+            events: Events::default(),
+            trace: corridor::Trace::new(),
+            rows_per_chunk: ROWS_PER_CHUNK,
             trail: Vec::new(),
             trail_spacing_m: 1.0,
         }
     }
 
-    /// Takes what a step gave. Call it every tick; one in five is drawn.
-    pub fn push(&mut self, canvas: &mut Canvas, outputs: &Outputs) {
-        if !outputs.tick.is_multiple_of(TICKS_PER_ROW) {
-            return;
+    /// Sends what its own fields are called.
+    pub fn begin(&self, canvas: &mut Canvas) {
+        let sent = fields::send_still(&canvas.recording, &self.look, &self.own);
+        canvas.keep(sent);
+    }
+
+    /// Takes what was seen at a tick. Call it every tick; one in five is drawn, and what devices said is.
+    pub fn push(&mut self, canvas: &mut Canvas, seen: Moment) {
+        let outputs = seen.outputs;
+        self.raw.add(outputs.tick, seen.events);
+        if outputs.tick.is_multiple_of(TICKS_PER_ROW) {
+            self.draw(canvas, outputs, seen.world);
         }
+    }
+
+    /// Takes what devices said for a tick that is not drawn.
+    pub fn say(&mut self, tick: u64, events: &[DeviceEvent]) {
+        self.raw.add(tick, events);
+    }
+
+    /// Draws a row.
+    pub fn draw(&mut self, canvas: &mut Canvas, outputs: &Outputs, world: &World) {
+        canvas.reach(outputs.tick);
         self.follow(outputs);
-        self.show_modes(canvas, outputs);
+        self.trace.add(outputs, &self.aircraft);
+        self.show_modes(canvas, outputs, world);
         self.rows.push(*outputs);
-        if self.rows.len() >= ROWS_PER_CHUNK {
+        if self.rows.len() >= self.rows_per_chunk {
             self.flush(canvas);
         }
+    }
+
+    /// Takes how a tick kept time: of those of a row the latest is drawn, and every one with an input of
+    /// hardware, a slip or an overrun.
+    pub fn time(&mut self, canvas: &mut Canvas, timing: &TimingRecord) {
+        let grave = |timing: &TimingRecord| {
+            timing.latency_ns > 0 || timing.slip_ns > 0 || timing.overrun > 0
+        };
+        match self.times.last_mut() {
+            Some(last)
+                if last.tick / TICKS_PER_ROW == timing.tick / TICKS_PER_ROW
+                    && !grave(last)
+                    && (grave(timing) || timing.late_ns >= last.late_ns) =>
+            {
+                *last = *timing;
+            }
+            Some(last)
+                if last.tick / TICKS_PER_ROW == timing.tick / TICKS_PER_ROW && !grave(timing) => {}
+            _ => self.times.push(*timing),
+        }
+        if self.times.len() >= ROWS_PER_CHUNK {
+            self.flush_times(canvas);
+        }
+    }
+
+    /// Notes an event.
+    pub fn event(&mut self, canvas: &mut Canvas, tick: u64, level: Severity, text: &str) {
+        self.events.add(canvas, &self.look, tick, level, text);
     }
 
     /// Writes what is left, and the whole path.
     pub fn finish(&mut self, canvas: &mut Canvas) {
         self.flush(canvas);
-        let sent = send_path(&canvas.recording, &self.trail, self.look);
+        self.flush_times(canvas);
+        self.events.finish(canvas, &self.look);
+        let sent = send_path(&canvas.recording, &self.trail, &self.look);
+        canvas.keep(sent);
+        let sent = self.trace.send(&canvas.recording, &self.look);
         canvas.keep(sent);
     }
 
@@ -134,51 +176,88 @@ impl Track {
     }
 
     /// Writes the modes that changed.
-    fn show_modes(&mut self, canvas: &mut Canvas, outputs: &Outputs) {
+    fn show_modes(&mut self, canvas: &mut Canvas, outputs: &Outputs, world: &World) {
         for (index, mode) in MODES.iter().enumerate() {
-            let value = mode.of(outputs);
+            let value = mode.of(Seen { outputs, world, aircraft: &self.aircraft });
             if self.modes[index] == Some(value) {
                 continue;
             }
             self.modes[index] = Some(value);
             let columns = StateChange::single(value).columns_of_unit_batches().map(Vec::from_iter);
-            canvas.send(&self.entity(&mode.path), &times(&[outputs.tick]), columns);
+            canvas.send(&self.look.entity(&mode.path), &times(&[outputs.tick]), columns);
         }
     }
 
     /// Writes the rows gathered.
-    fn flush(&mut self, canvas: &mut Canvas) {
-        let rows = std::mem::replace(&mut self.rows, Vec::with_capacity(ROWS_PER_CHUNK));
+    pub fn flush(&mut self, canvas: &mut Canvas) {
+        self.raw.flush(canvas, &self.look, &mut self.axes_told);
+        let rows = std::mem::replace(&mut self.rows, Vec::with_capacity(self.rows_per_chunk));
         if rows.is_empty() {
             return;
         }
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
         let times = times(&ticks);
-        for (entity, columns) in moving_columns(&rows, &self.mounts, self.look.ground) {
-            canvas.send(&self.entity(entity), &times, columns);
+        for (entity, columns) in moving_columns(&rows, &self.mounts, &self.places, self.look.ground)
+        {
+            canvas.send(&self.look.entity(entity), &times, columns);
         }
-        for plot in PLOTS {
-            let scalars = Scalars::new(rows.iter().map(plot.of));
-            let columns = scalars.columns_of_unit_batches().map(Vec::from_iter);
-            canvas.send(&self.entity(plot.path), &times, columns);
+        send_graphs(canvas, &self.look, GRAPHS, &rows, &times);
+        canvas.send(&self.look.entity(corridor::NOW), &times, corridor::columns(&rows));
+        if self.own.iter().any(|(_, field)| field.channel == Channel::Outputs) {
+            let messages: Vec<Vec<u8>> =
+                rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
+            fields::send(canvas, &self.look, &self.own, Channel::Outputs, &ticks, &messages);
         }
         self.send_flown(canvas, &rows);
+    }
+
+    /// Writes the times gathered.
+    fn flush_times(&mut self, canvas: &mut Canvas) {
+        let rows = std::mem::take(&mut self.times);
+        if rows.is_empty() {
+            return;
+        }
+        let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
+        send_graphs(canvas, &self.look, TIMES, &rows, &times(&ticks));
+        if self.own.iter().any(|(_, field)| field.channel == Channel::Timing) {
+            let messages: Vec<Vec<u8>> =
+                rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
+            fields::send(canvas, &self.look, &self.own, Channel::Timing, &ticks, &messages);
+        }
     }
 
     /// The line behind the aircraft, piece by piece, so that the viewer can show the last of them.
     fn send_flown(&mut self, canvas: &mut Canvas, rows: &[Outputs]) {
         let mut ticks = Vec::new();
         let mut pieces = Vec::new();
+        let mut colours = Vec::new();
         for row in rows.iter().step_by(ROWS_PER_PIECE) {
             let from_m = self.flown_to_m.replace(row.position_m).unwrap_or(row.position_m);
             ticks.push(row.tick);
             pieces.push([point(from_m), point(row.position_m)]);
+            colours.push(self.look.trail(super::modes::configuration(row).1, 0xFF));
         }
-        let columns = LineStrips3D::new(pieces).columns_of_unit_batches().map(Vec::from_iter);
-        canvas.send(&self.entity("world/flown"), &times(&ticks), columns);
+        let columns = LineStrips3D::new(pieces)
+            .with_colors(colours)
+            .columns_of_unit_batches()
+            .map(Vec::from_iter);
+        canvas.send(&self.look.entity("world/flown"), &times(&ticks), columns);
     }
+}
 
-    fn entity(&self, name: &str) -> String {
-        format!("{}{name}", self.look.root)
+/// Writes rows of graphs: each as one entity with as many values in a row as it has lines.
+fn send_graphs<T>(
+    canvas: &mut Canvas,
+    look: &Look,
+    graphs: &[Graph<T>],
+    rows: &[T],
+    times: &[TimeColumn],
+) {
+    for graph in graphs {
+        let values = rows.iter().flat_map(|row| graph.lines.iter().map(|line| (line.of)(row)));
+        let columns = Scalars::new(values)
+            .columns(std::iter::repeat_n(graph.lines.len(), rows.len()))
+            .map(Vec::from_iter);
+        canvas.send(&look.entity(graph.entity), times, columns);
     }
 }

@@ -1,0 +1,130 @@
+//! What happened: a list, and a lane on the same time axis as everything else.
+
+use engine::STEP_S;
+use rerun::{StateChange, StateConfiguration, TextLog};
+
+use super::basics::Severity;
+use super::canvas::{Canvas, times};
+use super::look::Look;
+
+/// Entity of the list; each flight of several has its own below it.
+pub const LIST: &str = "events";
+/// Entity of the lane.
+pub const LANE: &str = "modes/events";
+
+/// An event is seen in its lane for so long, s, unless the next one comes.
+const SEEN_S: f64 = 4.0;
+/// Of a long flight for this part of it, so that it is seen at all.
+const SEEN_NORM: f64 = 0.05;
+
+/// What happened in a flight.
+#[derive(Default)]
+pub struct Events {
+    all: Vec<(u64, Severity, String)>,
+}
+
+fn colour(severity: Severity) -> u32 {
+    match severity {
+        Severity::Info => 0x4A_8A_6A_FF,
+        Severity::Warning => 0xE0_9A_20_FF,
+        Severity::Error => 0xD0_40_38_FF,
+    }
+}
+
+/// The part of the words that a lane has room for.
+fn short(words: &str) -> &str {
+    words.split([',', ';', '(', ':']).next().unwrap_or_default().trim_end()
+}
+
+impl Events {
+    /// Notes an event in the list, and for the lane.
+    pub fn add(
+        &mut self,
+        canvas: &mut Canvas,
+        look: &Look,
+        tick: u64,
+        level: Severity,
+        text: &str,
+    ) {
+        let words = format!("{}{text}", look.name);
+        let columns = TextLog::new(words)
+            .with_level(level.name())
+            .columns_of_unit_batches()
+            .map(Vec::from_iter);
+        canvas.send(&look.entity(LIST), &times(&[tick]), columns);
+        self.all.push((tick, level, short(text).into()));
+    }
+
+    /// Writes the lane.
+    pub fn finish(&mut self, canvas: &mut Canvas, look: &Look) {
+        let end = canvas.span.map_or(u64::MAX, |(_, last)| last);
+        let changes = lane(&mut self.all, end);
+        if changes.is_empty() {
+            return;
+        }
+        let ticks: Vec<u64> = changes.iter().map(|(tick, _)| *tick).collect();
+        let words = changes.iter().map(|(_, words)| *words);
+        let columns =
+            StateChange::new().with_state(words).columns_of_unit_batches().map(Vec::from_iter);
+        canvas.send(&look.entity(LANE), &times(&ticks), columns);
+        let mut known: Vec<(&str, u32)> = Vec::new();
+        for (_, level, words) in &self.all {
+            if !known.iter().any(|(known, _)| known == words) {
+                known.push((words, colour(*level)));
+            }
+        }
+        let (values, colours): (Vec<&str>, Vec<u32>) = known.into_iter().unzip();
+        let told = StateConfiguration::new().with_values(values).with_colors(colours);
+        let sent = canvas.recording.log_static(look.entity(LANE), &told);
+        canvas.keep(sent);
+    }
+}
+
+fn gravity(severity: Severity) -> u8 {
+    match severity {
+        Severity::Error => 0,
+        Severity::Warning => 1,
+        Severity::Info => 2,
+    }
+}
+
+/// What the lane shows from when on, up to the end of the flight; nothing is an empty word. Of several at once
+/// the gravest is shown; the list has all.
+fn lane(all: &mut [(u64, Severity, String)], end: u64) -> Vec<(u64, &str)> {
+    all.sort_by_key(|(tick, severity, _)| (*tick, gravity(*severity)));
+    let last = all.last().map_or(0, |(tick, ..)| *tick);
+    let seen = engine::math::max(SEEN_S / STEP_S, SEEN_NORM * last as f64) as u64;
+    let mut changes: Vec<(u64, &str)> = Vec::new();
+    for (number, (tick, _, words)) in all.iter().enumerate() {
+        if number > 0 && all[number - 1].0 == *tick {
+            continue;
+        }
+        changes.push((*tick, words));
+        let until = tick.saturating_add(seen);
+        let next = all[number + 1..].iter().map(|(next, ..)| next).find(|next| *next > tick);
+        if until < end && next.is_none_or(|next| *next > until) {
+            changes.push((until, ""));
+        }
+    }
+    changes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_event_is_seen_until_the_next_one_or_for_a_while() {
+        let mut all = vec![
+            (5000, Severity::Info, "marker 1".into()),
+            (0, Severity::Info, "exact".to_string()),
+            (5100, Severity::Info, "touchdown".into()),
+            (5100, Severity::Error, "impact".into()),
+        ];
+        let changes = lane(&mut all, 6000);
+        // A twentieth of this short flight is less than what is seen at least.
+        let expected = [(0, "exact"), (1000, ""), (5000, "marker 1"), (5100, "impact")];
+        assert_eq!(changes, expected);
+        assert_eq!(short("lift-off, climbing 0.03 m/s"), "lift-off");
+    }
+}

@@ -1,0 +1,94 @@
+//! What devices said, as they said it: counts of every axis, before any map.
+
+use std::collections::BTreeMap;
+
+use engine::inputs::{DeviceEvent, EventKind};
+use rerun::components::InterpolationMode;
+use rerun::{Scalars, SeriesLines};
+
+use super::canvas::{Canvas, times};
+use super::look::Look;
+use super::parts::RAW;
+
+/// Colours of the axes, in the order in which they move.
+const COLOURS: [u32; 8] = [
+    0xF5_A0_3C_FF,
+    0x5B_A8_F5_FF,
+    0xB6_8C_F0_FF,
+    0xE6_E6_E6_FF,
+    0x3F_B9_5A_FF,
+    0xF0_DC_50_FF,
+    0x48_D0_D0_FF,
+    0xE0_4A_3F_FF,
+];
+
+/// Axes that have moved, and how since the last time that they were written.
+#[derive(Default)]
+pub struct Raw {
+    axes: BTreeMap<(u64, u64), Vec<(u64, i64)>>,
+}
+
+impl Raw {
+    /// Takes the device events of a tick.
+    pub fn add(&mut self, tick: u64, events: &[DeviceEvent]) {
+        for event in events {
+            let kind = EventKind::from_u64(event.kind);
+            if matches!(kind, Some(EventKind::Axis | EventKind::AxisPosition)) {
+                let moves = self.axes.entry((event.device, event.code)).or_default();
+                match moves.last_mut() {
+                    // Of one tick the last one counts.
+                    Some(last) if last.0 == tick => last.1 = event.value,
+                    _ => moves.push((tick, event.value)),
+                }
+            }
+        }
+    }
+
+    /// Writes them.
+    pub fn flush(&mut self, canvas: &mut Canvas, look: &Look, told: &mut Vec<(u64, u64)>) {
+        for (&(device, code), moves) in &mut self.axes {
+            if moves.is_empty() {
+                continue;
+            }
+            let entity = look.entity(&format!("{RAW}/device_{device}_axis_{code:02x}"));
+            if !told.contains(&(device, code)) {
+                let sent = canvas.recording.log_static(
+                    entity.as_str(),
+                    &SeriesLines::new()
+                        .with_names([format!("{}device {device}, axis 0x{code:02x}", look.name)])
+                        .with_colors([COLOURS[told.len() % COLOURS.len()] & look.line_mask])
+                        .with_widths([1.5 + look.line_width])
+                        .with_interpolation_mode(InterpolationMode::StepAfter),
+                );
+                canvas.keep(sent);
+                told.push((device, code));
+            }
+            let (ticks, values): (Vec<u64>, Vec<i64>) = moves.drain(..).unzip();
+            let scalars = Scalars::new(values.into_iter().map(|value| value as f64));
+            let columns = scalars.columns_of_unit_batches().map(Vec::from_iter);
+            canvas.send(&entity, &times(&ticks), columns);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_one_tick_the_last_position_of_an_axis_counts_and_buttons_are_none() {
+        let mut raw = Raw::default();
+        let event = |kind: EventKind, code, value| DeviceEvent {
+            kind: kind as u64,
+            device: 1,
+            code,
+            value,
+            ..DeviceEvent::default()
+        };
+        raw.add(7, &[event(EventKind::Axis, 0, 10), event(EventKind::Axis, 0, 20)]);
+        raw.add(8, &[event(EventKind::Button, 3, 1), event(EventKind::AxisPosition, 1, -5)]);
+        assert_eq!(raw.axes[&(1, 0)], [(7, 20)]);
+        assert_eq!(raw.axes[&(1, 1)], [(8, -5)]);
+        assert_eq!(raw.axes.len(), 2);
+    }
+}

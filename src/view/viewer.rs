@@ -1,0 +1,139 @@
+//! The viewer: found, of the right version, started, and watched until it stands.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+use replay::view::control::{self, ControlError};
+
+/// Recordings of one version are for viewers of that version.
+const VERSION: &str = "0.36.3";
+/// A viewer that cannot open its window has ended by then.
+const STANDS: Duration = Duration::from_secs(3);
+/// A recording of an hour is open by then.
+const OPENS: Duration = Duration::from_secs(60);
+/// Between two looks at whether it still runs.
+const LOOK: Duration = Duration::from_millis(50);
+/// So much of what it said before it ended is told.
+const LINES: usize = 4;
+
+/// A viewer that is there.
+pub struct Viewer {
+    program: PathBuf,
+}
+
+impl Viewer {
+    /// Looks for it.
+    pub fn find(program: &Path) -> Result<Self> {
+        let install = format!("`pip install rerun-sdk=={VERSION}` brings it");
+        let asked = Command::new(program).arg("--version").stdin(Stdio::null()).output();
+        let said = asked.with_context(|| {
+            format!(
+                "no viewer: the program `{}` cannot be started; {install}, or save the recording: \
+                 --save FLIGHT.rrd",
+                program.display()
+            )
+        })?;
+        let said = String::from_utf8_lossy(&said.stdout).into_owned();
+        match version(&said) {
+            Some(VERSION) => Ok(Self { program: program.into() }),
+            Some(other) => bail!(
+                "the viewer `{}` is of version {other}, and recordings are for {VERSION}; {install}",
+                program.display()
+            ),
+            None => bail!(
+                "`{}` is not the rerun viewer: asked for its version, it says {:?}; {install}",
+                program.display(),
+                said.lines().next().unwrap_or("nothing")
+            ),
+        }
+    }
+
+    /// Opens the recording, at a tick if one is given, and waits until the viewer stands.
+    pub fn show(&self, recording: &Path, tick: Option<u64>) -> Result<()> {
+        // A viewer of one's own: another one that listens at the usual port would get the recording.
+        let port = free_port().context("no free port for the viewer")?;
+        let mut heard = tempfile().context("no file for what the viewer says")?;
+        let mut child = Command::new(&self.program)
+            .args(["--bind", "127.0.0.1", "--port", &port.to_string()])
+            .arg(recording)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(heard.try_clone()?)
+            .spawn()
+            .with_context(|| format!("cannot start {}", self.program.display()))?;
+        let began = Instant::now();
+        let alive = || matches!(child.try_wait(), Ok(None));
+        let gone = tick.map(|tick| control::go_to(port, tick, OPENS, alive));
+        match gone {
+            None | Some(Ok(()) | Err(ControlError::Ended)) => {}
+            Some(Err(error)) => complain!("{error}; the time cursor is where the viewer puts it"),
+        }
+        stands(&mut child, STANDS.saturating_sub(began.elapsed()))
+            .with_context(|| last_words(&mut heard))
+    }
+}
+
+/// The version in `rerun-cli 0.36.3 [rustc …]`.
+fn version(said: &str) -> Option<&str> {
+    let mut words = said.split_whitespace();
+    words.find(|word| word.starts_with("rerun"))?;
+    words.find(|word| word.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// Waits until the viewer has run for a while, or been closed by whoever looked at it.
+fn stands(child: &mut Child, patience: Duration) -> Result<()> {
+    let began = Instant::now();
+    while began.elapsed() < patience {
+        match child.try_wait()? {
+            Some(ended) if ended.success() => return Ok(()),
+            Some(ended) => bail!("the viewer ended at once, with {ended}"),
+            None => thread::sleep(LOOK),
+        }
+    }
+    Ok(())
+}
+
+/// What it said last, in one line.
+fn last_words(heard: &mut File) -> String {
+    let mut said = String::new();
+    let read = heard.seek(SeekFrom::Start(0)).and_then(|_| heard.read_to_string(&mut said));
+    let lines: Vec<&str> = said.lines().filter(|line| !line.trim().is_empty()).collect();
+    let last = lines[lines.len().saturating_sub(LINES)..].join(" / ");
+    let said = if read.is_ok() && !last.is_empty() { last } else { "nothing".into() };
+    format!(
+        "the viewer said: {said}; without a screen, --save FLIGHT.rrd makes the recording alone"
+    )
+}
+
+fn free_port() -> std::io::Result<u16> {
+    Ok(TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?.local_addr()?.port())
+}
+
+/// A file without a name.
+fn tempfile() -> std::io::Result<File> {
+    let path = std::env::temp_dir().join(format!("tiltrotor-viewer-{}", std::process::id()));
+    let file = File::options().read(true).write(true).create(true).truncate(true).open(&path)?;
+    // Where an open file cannot be removed it stays: the next one of this number takes its place.
+    let _ = std::fs::remove_file(&path);
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_version_is_read_off_what_the_viewer_says_of_itself() {
+        let said = "rerun-cli 0.36.3 [rustc 1.95.0 (abc 2026-04-01), LLVM 21] x86_64 release";
+        assert_eq!(version(said), Some("0.36.3"));
+        assert_eq!(version("rerun 0.30.0-alpha.1"), Some("0.30.0-alpha.1"));
+        assert_eq!(version("ls (GNU coreutils) 9.1"), None);
+        assert_eq!(version(""), None);
+    }
+}
