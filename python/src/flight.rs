@@ -1,6 +1,7 @@
 //! A flight that is stepped from Python.
 
 use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ::aircraft as files;
 use engine::cockpit::{AxisControl, ButtonControl};
@@ -8,102 +9,181 @@ use engine::frames::Vec3;
 use engine::inputs::{Failures, InputLevel, World};
 use engine::math::{cos, sin};
 use engine::units::{mps_of_knots, radians};
-use logs::{Identity, Setup, cdr, fields};
+use engine::{State, observe};
+use logs::{Identity, Setup, cdr};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use recorder::Stepped;
+use recorder::{Moment, Movement, Stepped};
+use replay::{OPEN, Source, Window, names_parent};
 
 use crate::aircraft::Aircraft;
-use crate::errors::{TiltrotorError, told, told_of};
+use crate::commands;
+use crate::errors::{refused, told, told_of};
+use crate::numbers::{Fields, body, of_struct};
+use crate::provenance::identity;
+use crate::waiting::wait;
 
-/// Ticks between two looks for Ctrl-C: some ten milliseconds.
+/// Ticks between two looks for Ctrl-C: some milliseconds.
 const LOOK_TICKS: u64 = 500;
 
 /// A flight, stepped by whoever calls.
-#[pyclass(module = "tiltrotor")]
+#[pyclass(module = "tiltrotor._native", skip_from_py_object)]
 pub struct Flight {
-    flown: Stepped,
+    /// Never contended: Python hands out one exclusive borrow at a time.
+    flown: Mutex<Stepped>,
     aircraft: Aircraft,
+    /// Of a flight that goes on from a log: the tick, and what its own log says of that one.
+    origin: Option<(u64, Identity)>,
 }
 
-fn refused(words: String) -> PyErr {
-    TiltrotorError::new_err(words)
-}
+/// A flight's moment as Python keeps it: state, outputs, world, where the axes stand, what is still to be
+/// moved.
+type Kept = (Vec<u8>, Vec<u8>, Vec<u8>, Vec<(u64, i64)>, Vec<(String, f64)>);
 
-fn setup(aircraft: &Aircraft, scenario_toml: String) -> PyResult<Setup> {
+/// The cockpit map through which programs move the controls, as it stands in a log.
+fn map_toml() -> PyResult<String> {
     let map = files::cockpit("pilot.toml", files::PILOT_MAP).map_err(told)?;
-    let cockpit_toml = toml::to_string(&map).map_err(told)?;
-    Ok(Setup { aircraft_toml: aircraft.text().into(), cockpit_toml, scenario_toml })
+    toml::to_string(&map).map_err(told)
+}
+
+/// The scenario of a start position.
+fn start_position(name: &str) -> PyResult<&'static str> {
+    let found = files::STARTS.iter().find(|(known, ..)| *known == name);
+    found.map(|(.., text)| *text).ok_or_else(|| {
+        let there = files::STARTS.map(|(name, ..)| name).join(", ");
+        refused(format!("start: no position is called {name}; there are {there}"))
+    })
+}
+
+impl Flight {
+    fn flown(&mut self) -> &mut Stepped {
+        self.flown.get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn new(flown: Stepped, aircraft: Aircraft, origin: Option<(u64, Identity)>) -> Self {
+        Self { flown: Mutex::new(flown), aircraft, origin }
+    }
 }
 
 #[pymethods]
 impl Flight {
     /// Begins at a start position, or as a scenario's text says.
     #[new]
-    #[pyo3(signature = (aircraft, start="runway", scenario=None))]
-    fn new(aircraft: Aircraft, start: &str, scenario: Option<String>) -> PyResult<Self> {
-        let text = match scenario {
+    fn begin(
+        py: Python<'_>,
+        aircraft: &Bound<'_, Aircraft>,
+        start: &str,
+        scenario: Option<String>,
+    ) -> PyResult<Self> {
+        let aircraft = aircraft.get().clone();
+        let scenario_toml = match scenario {
             Some(text) => text,
-            None => match files::STARTS.iter().find(|(name, ..)| *name == start) {
-                Some((_, _, text)) => (*text).into(),
-                None => {
-                    let names: Vec<_> = files::STARTS.iter().map(|(name, ..)| *name).collect();
-                    return Err(refused(format!("start: no position is called {start}; there are {}", names.join(", "))));
-                }
-            },
+            None => start_position(start)?.into(),
         };
-        let begins = files::start("scenario.toml", &text).map_err(told)?;
-        let setup = setup(&aircraft, text)?;
-        let flown = Stepped::begin(aircraft.params.clone(), setup, &begins).map_err(told)?;
-        Ok(Self { flown, aircraft })
+        let begins = files::start("scenario.toml", &scenario_toml).map_err(told)?;
+        let fuel_kg_max = aircraft.params.weight_balance.fuel_kg_max;
+        if begins.fuel_kg > fuel_kg_max {
+            return Err(refused(format!(
+                "scenario: fuel of {:.0} kg: the tanks hold {fuel_kg_max:.0} kg",
+                begins.fuel_kg
+            )));
+        }
+        let (aircraft_toml, cockpit_toml) = (aircraft.text().into(), map_toml()?);
+        let setup = Setup { aircraft_toml, cockpit_toml, scenario_toml };
+        let params = Arc::clone(&aircraft.params);
+        let flown = wait(py, move |_| Stepped::begin(params, setup, &begins))?.map_err(told)?;
+        Ok(Self::new(flown, aircraft, None))
     }
 
-    /// Moves controls with the next step.
+    /// Goes on from a state of a log, by the hands of whoever calls.
+    #[staticmethod]
+    fn from_log(py: Python<'_>, path: PathBuf, tick: Option<u64>) -> PyResult<Self> {
+        let name = path.display().to_string();
+        let read = wait(py, move |_| {
+            let source = Source::proven(&path, "not flown on")?;
+            let mut reader = logs::open(&path, OPEN)?;
+            let window = Window { from_tick: tick, until_tick: None, clamped: false };
+            window.apply(&mut reader)?;
+            let state = reader.initial;
+            let origin = source.marks(names_parent(identity(), &path, &reader, "python"));
+            let setup = reader.setup.clone();
+            // The world of the tick that begins there; after the last one, that of the start.
+            let flown = replay::flown(&setup)?;
+            let world = reader.next_tick()?.map_or(flown.world, |tick| tick.inputs.world);
+            Ok::<_, replay::ReplayError>((state, world, setup, origin))
+        })?;
+        let (state, world, mut setup, origin) = read.map_err(|error| told_of(&name, error))?;
+        // Whatever flew it: from here on, a program does.
+        setup.cockpit_toml = map_toml()?;
+        let aircraft = Aircraft::read("aircraft.toml", &setup.aircraft_toml)?;
+        let flown = Stepped::going_on(Arc::clone(&aircraft.params), setup, state, world);
+        Ok(Self::new(flown.map_err(told)?, aircraft, Some((state.tick, origin))))
+    }
+
+    /// The scenario of a start position.
+    #[staticmethod]
+    fn scenario(start: &str) -> PyResult<&'static str> {
+        start_position(start)
+    }
+
+    /// The aircraft that flies.
+    #[getter]
+    fn aircraft(&self) -> Aircraft {
+        self.aircraft.clone()
+    }
+
+    /// Moves a control with the next step.
     fn set_control(&mut self, control: &str, position: f64) -> PyResult<()> {
-        let Some(known) = self.flown.axes().find(|known| known.facts().key == control) else {
-            let keys: Vec<_> = self.flown.axes().map(|known| known.facts().key).collect();
-            return Err(refused(format!("{control}: no such control; there are {}", keys.join(", "))));
+        let flown = self.flown();
+        let Some(known) = flown.axes().find(|known| known.facts().key == control) else {
+            let keys: Vec<_> = flown.axes().map(|known| known.facts().key).collect();
+            let there = keys.join(", ");
+            return Err(refused(format!("{control}: no such control; there are {there}")));
         };
         let low = known.facts().travel.low_norm();
         if !(low..=1.0).contains(&position) {
             return Err(refused(format!("{control}: expected {low} to 1, got {position}")));
         }
-        self.flown.set(known, position);
+        flown.set(known, position);
         Ok(())
     }
 
     /// The controls that can be moved, each with its lower end and what it is.
-    fn controls(&self) -> Vec<(&'static str, f64, &'static str)> {
-        let facts = self.flown.axes().map(AxisControl::facts);
+    fn controls(&mut self) -> Vec<(&'static str, f64, &'static str)> {
+        let facts = self.flown().axes().map(AxisControl::facts);
         facts.map(|facts| (facts.key, facts.travel.low_norm(), facts.description)).collect()
     }
 
-    /// Presses and releases a button with the next step, or holds it, or lets it go.
-    fn button(&mut self, control: &str, pressed: Option<bool>) -> PyResult<()> {
+    /// Presses a button with the next step, or lets it go.
+    fn button(&mut self, control: &str, pressed: bool) -> PyResult<()> {
         let Some(known) = ButtonControl::from_key(control) else {
-            return Err(refused(format!("{control}: no such button; there are {}", ButtonControl::KEYS.join(", "))));
+            let there = ButtonControl::KEYS.join(", ");
+            return Err(refused(format!("{control}: no such button; there are {there}")));
         };
-        for pressed in pressed.map_or(vec![true, false], |pressed| vec![pressed]) {
-            self.flown.press(known, pressed);
-        }
+        self.flown().press(known, pressed);
         Ok(())
     }
 
     /// Sets or mends a failure.
     fn fail(&mut self, key: &str, failed: bool) -> PyResult<()> {
-        let failure = Failures::from_key(key)
-            .ok_or_else(|| refused(format!("{key}: no such failure; there are {}", Failures::KEYS.join(", "))))?;
-        self.flown.world.failures.set(failure, failed);
+        let failure = Failures::from_key(key).ok_or_else(|| {
+            let there = Failures::KEYS.join(", ");
+            refused(format!("{key}: no such failure; there are {there}"))
+        })?;
+        self.flown().world.failures.set(failure, failed);
         Ok(())
     }
 
     /// Sets the steady wind.
     fn wind(&mut self, from_deg: f64, kt: f64) -> PyResult<()> {
         if !(from_deg.is_finite() && (0.0..=200.0).contains(&kt)) {
-            return Err(refused(format!("wind: expected 0 to 200 kt, got {kt} kt from {from_deg} deg")));
+            let words = format!("wind: expected 0 to 200 kt, got {kt} kt from {from_deg} deg");
+            return Err(refused(words));
         }
         let (from_rad, mps) = (radians(from_deg), mps_of_knots(kt));
-        self.flown.world.wind_mps = Vec3::new(-mps * cos(from_rad), -mps * sin(from_rad), 0.0);
+        // What is recorded has no negative zero.
+        let (north_mps, east_mps) = (0.0 - mps * cos(from_rad), 0.0 - mps * sin(from_rad));
+        self.flown().world.wind_mps = Vec3::new(north_mps, east_mps, 0.0);
         Ok(())
     }
 
@@ -112,51 +192,39 @@ impl Flight {
         if !(0.0..=15.0).contains(&mps) {
             return Err(refused(format!("turbulence: expected 0 to 15 m/s, got {mps}")));
         }
-        self.flown.world.turbulence_mps = mps;
+        self.flown().world.turbulence_mps = mps;
         Ok(())
     }
 
     /// Commands the actuators in place of the flight control computer; `None` gives them back to it.
-    fn command(&mut self, commands: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    fn drive_actuators(&mut self, commands: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+        let flown = self.flown();
         let Some(given) = commands else {
-            let World { commands, .. } = World::default();
-            self.flown.world.input_level = InputLevel::Controls as u64;
-            self.flown.world.commands = commands;
+            let World { commands, input_level, .. } = World::default();
+            (flown.world.commands, flown.world.input_level) = (commands, input_level);
             return Ok(());
         };
-        // From what the computer asks for, or from what was asked for before.
-        let outside = self.flown.world.input_level == InputLevel::Actuators as u64;
-        let base = if outside { self.flown.world.commands } else { self.flown.outputs.commands };
-        let known = fields::fields(&base).map_err(told)?;
-        let mut message = cdr::encode(&base).map_err(told)?;
-        for (key, value) in given {
-            let (key, value) = (key.extract::<String>()?, value.extract::<f64>()?);
-            let Some(place) = known.iter().position(|field| field.path == key) else {
-                let keys: Vec<_> = known.iter().map(|field| field.path.as_str()).collect();
-                return Err(refused(format!("{key}: no such command; there are {}", keys.join(", "))));
-            };
-            if !value.is_finite() {
-                return Err(refused(format!("{key}: expected a finite number, got {value}")));
-            }
-            let bits = match known[place].value {
-                fields::Value::F64(_) => (value + 0.0).to_bits(),
-                fields::Value::U64(_) | fields::Value::I64(_) => u64::from(value > 0.5),
-            };
-            // Eight bytes a number, after the header.
-            message[4 + 8 * place..][..8].copy_from_slice(&bits.to_le_bytes());
-        }
-        self.flown.world.commands = cdr::decode(&message).map_err(told)?;
-        self.flown.world.input_level = InputLevel::Actuators as u64;
+        // From what was asked for last: from outside, or by the computer.
+        let base = flown.world.outside_commands().unwrap_or(flown.outputs.commands);
+        flown.world.commands = commands::changed(&base, given)?;
+        flown.world.input_level = InputLevel::Actuators as u64;
         Ok(())
     }
 
-    /// Flies so many ticks of 4 ms.
+    /// What the aircraft's own computer asks for now, whoever commands the actuators.
+    fn computer_commands<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let flown = self.flown();
+        let world = World { input_level: InputLevel::Controls as u64, ..flown.world };
+        commands::named(py, &observe(&flown.aircraft, &flown.state, &world).commands)
+    }
+
+    /// Flies so many ticks.
     #[pyo3(signature = (ticks=1))]
     fn step(&mut self, py: Python<'_>, ticks: u64) -> PyResult<()> {
+        let flown = self.flown();
         let mut left = ticks;
         while left > 0 {
             let now = left.min(LOOK_TICKS);
-            let flown = &mut self.flown;
             py.detach(|| (0..now).try_for_each(|_| flown.step())).map_err(told)?;
             left -= now;
             if left > 0 {
@@ -168,58 +236,107 @@ impl Flight {
 
     /// Ticks flown.
     #[getter]
-    fn tick(&self) -> u64 {
-        self.flown.state.tick
+    fn tick(&mut self) -> u64 {
+        self.flown().state.tick
     }
 
     /// A second flight from here on, without a log.
-    fn copy(&self) -> Self {
-        Self { flown: self.flown.fork(), aircraft: self.aircraft.clone() }
+    fn copy(&mut self) -> Self {
+        let flown = self.flown().fork();
+        Self::new(flown, self.aircraft.clone(), self.origin.clone())
     }
 
-    /// The numbers of the state, or of what could be observed: names, numpy's codes, and the bytes.
-    fn numbers<'py>(&self, py: Python<'py>, which: &str) -> PyResult<(Vec<(String, &'static str)>, Bound<'py, PyBytes>)> {
-        let (message, named) = match which {
-            "state" => (cdr::encode(&self.flown.state), fields::fields(&self.flown.state)),
-            "outputs" => (cdr::encode(&self.flown.outputs), fields::fields(&self.flown.outputs)),
-            _ => return Err(refused(format!("{which}: expected state or outputs"))),
-        };
-        let (message, named) = (message.map_err(told)?, named.map_err(told)?);
-        let code = |value: &fields::Value| match value {
-            fields::Value::F64(_) => "<f8",
-            fields::Value::U64(_) => "<u8",
-            fields::Value::I64(_) => "<i8",
-        };
-        let named = named.into_iter().map(|field| (field.path, code(&field.value))).collect();
-        Ok((named, PyBytes::new(py, &message[4..])))
+    /// Names and types of the numbers of `state` or `outputs`.
+    #[staticmethod]
+    fn fields(which: &str) -> PyResult<Fields> {
+        match which {
+            "state" => of_struct(&State::default()),
+            _ => of_struct(&engine::Outputs::default()),
+        }
+    }
+
+    /// The numbers of the state.
+    fn state<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let message = cdr::encode(&self.flown().state).map_err(told)?;
+        Ok(PyBytes::new(py, body(&message)))
+    }
+
+    /// The numbers of what can be observed.
+    fn outputs<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let message = cdr::encode(&self.flown().outputs).map_err(told)?;
+        Ok(PyBytes::new(py, body(&message)))
     }
 
     /// Records from here on.
-    #[pyo3(signature = (path, force=false))]
     fn record(&mut self, path: PathBuf, force: bool) -> PyResult<()> {
-        if self.flown.is_recording() {
-            return Err(refused("it is being recorded already: close() ends that log".into()));
-        }
-        let identity = Identity::new()
-            .with("program", concat!("tiltrotor python ", env!("CARGO_PKG_VERSION")))
-            .with("commit", env!("TILTROTOR_COMMIT"))
-            .with("dirty", env!("TILTROTOR_DIRTY"))
-            .with("compiler", env!("TILTROTOR_RUSTC"))
-            .with("target", env!("TILTROTOR_TARGET"))
-            .with("target_features", env!("TILTROTOR_TARGET_FEATURES"))
-            .with("profile", env!("TILTROTOR_PROFILE"));
+        let origin = self.origin.clone();
         let shape = files::urdf(&self.aircraft.params);
+        let flown = self.flown();
+        if flown.is_recording() {
+            return Err(refused("it is being recorded already: close() ends that log"));
+        }
+        let tick = flown.state.tick;
+        let identity = match origin {
+            Some((from, origin)) if from == tick => origin,
+            _ => identity(),
+        };
         let name = path.display().to_string();
-        self.flown.record(&path, force, identity, &shape).map_err(|error| told_of(&name, error))
+        flown.record(&path, force, identity, &shape).map_err(|error| told_of(&name, error))
     }
 
     /// Ends the log; the digest of the whole flight, or `None` when there was no log.
     fn close(&mut self) -> PyResult<Option<String>> {
-        let closed = self.flown.close().map_err(told)?;
+        let closed = self.flown().close().map_err(told)?;
         Ok(closed.map(|closed| format!("{:016x}", closed.digest)))
     }
 
-    fn __repr__(&self) -> String {
-        format!("<tiltrotor.Flight of {} at {:.3} s>", self.aircraft.params.name, self.flown.state.time_s())
+    /// What another process goes on from: the three texts, and the moment.
+    fn kept(&mut self) -> PyResult<(String, String, String, Kept)> {
+        let flown = self.flown();
+        let Setup { aircraft_toml, cockpit_toml, scenario_toml } = flown.setup.clone();
+        let Moment { state, outputs, world, sent, movements } = flown.moment();
+        let name = |movement: Movement| match movement {
+            Movement::Axis(control, at_norm) => (control.facts().key.to_string(), at_norm),
+            Movement::Button(control, pressed) => {
+                (format!("button {}", control.facts().key), f64::from(u8::from(pressed)))
+            }
+        };
+        let kept = (
+            cdr::encode(&state).map_err(told)?,
+            cdr::encode(&outputs).map_err(told)?,
+            cdr::encode(&world).map_err(told)?,
+            sent,
+            movements.into_iter().map(name).collect(),
+        );
+        Ok((aircraft_toml, cockpit_toml, scenario_toml, kept))
+    }
+
+    /// Goes on where another process was.
+    #[staticmethod]
+    fn resume(
+        aircraft_toml: String,
+        cockpit_toml: String,
+        scenario_toml: String,
+        kept: Kept,
+    ) -> PyResult<Self> {
+        let aircraft = Aircraft::read("aircraft.toml", &aircraft_toml)?;
+        let setup = Setup { aircraft_toml, cockpit_toml, scenario_toml };
+        let (state, outputs, world, sent, named) = kept;
+        let moment = Moment {
+            state: cdr::decode(&state).map_err(told)?,
+            outputs: cdr::decode(&outputs).map_err(told)?,
+            world: cdr::decode(&world).map_err(told)?,
+            sent,
+            movements: Vec::new(),
+        };
+        let flown = Stepped::resume(Arc::clone(&aircraft.params), setup, moment).map_err(told)?;
+        let mut flight = Self::new(flown, aircraft, None);
+        for (control, value) in named {
+            match control.strip_prefix("button ") {
+                Some(button) => flight.button(button, value > 0.5)?,
+                None => flight.set_control(&control, value)?,
+            }
+        }
+        Ok(flight)
     }
 }

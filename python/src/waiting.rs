@@ -1,4 +1,4 @@
-//! Long work beside the interpreter: without its lock, and ended by Ctrl-C.
+//! Long work beside the interpreter: without its lock, and left by Ctrl-C.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,20 +7,24 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 
+use crate::errors::refused;
+
 /// How often it is looked for Ctrl-C.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Does something on a thread of its own and waits for it; Ctrl-C ends the wait at once, and `stop`, which
-/// the work sees, is set then.
+/// The first wait, twice as long each time: most of what is asked for takes less than a look.
+const FIRST: Duration = Duration::from_micros(50);
+
+/// Does something on a thread of its own and waits for it. Ctrl-C ends the wait, and work that looks at the
+/// flag that it is given stops too.
 pub fn wait<T: Send + 'static>(
     py: Python<'_>,
-    work: impl FnOnce(Arc<AtomicBool>) -> T + Send + 'static,
+    work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
 ) -> PyResult<T> {
     let stop = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&stop);
-    let thread = thread::spawn(move || work(seen));
-    // Most of what is asked for takes less than a look.
-    let mut nap = Duration::from_micros(50);
+    let thread = thread::spawn(move || work(&seen));
+    let mut nap = FIRST;
     while !thread.is_finished() {
         py.detach(|| thread::sleep(nap));
         nap = (nap * 2).min(LOOK);
@@ -29,5 +33,7 @@ pub fn wait<T: Send + 'static>(
             return Err(interrupt);
         }
     }
-    thread.join().map_err(|_| super::errors::TiltrotorError::new_err("the work died of a fault of ours"))
+    thread
+        .join()
+        .map_err(|_| refused("this is a fault of tiltrotor's: please report what you called"))
 }
