@@ -16,7 +16,7 @@ use crate::linear::Linear;
 use crate::waiting::wait;
 
 /// An aircraft file that was read.
-#[pyclass(module = "tiltrotor._native", frozen, skip_from_py_object)]
+#[pyclass(module = "tiltrotor._native", frozen)]
 #[derive(Clone)]
 pub struct Aircraft {
     pub(crate) params: Arc<engine::Aircraft>,

@@ -27,7 +27,7 @@ use crate::waiting::wait;
 const LOOK_TICKS: u64 = 500;
 
 /// A flight, stepped by whoever calls.
-#[pyclass(module = "tiltrotor._native", skip_from_py_object)]
+#[pyclass(module = "tiltrotor._native")]
 pub struct Flight {
     /// Never contended: Python hands out one exclusive borrow at a time.
     flown: Mutex<Stepped>,

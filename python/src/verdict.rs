@@ -9,7 +9,7 @@ use replay::{Judgement, Options, Outcome, ReplayError, Window};
 use crate::waiting::wait;
 
 /// What a log is.
-#[pyclass(module = "tiltrotor._native", frozen, get_all, eq, skip_from_py_object)]
+#[pyclass(module = "tiltrotor._native", frozen, get_all, eq)]
 #[derive(Clone, PartialEq)]
 pub struct Verdict {
     outcome: String,

@@ -25,6 +25,9 @@ axis = { collective = 0.9, stick_aft = -0.1 }
 [[event]]
 at_s = 1.0
 press = ["marker"]
+
+[[event]]
+at_s = 1.0
 hold = ["nacelle_forward"]
 axis = { pedal_right = 0.25, stick_right = 0.05 }
 
@@ -48,7 +51,7 @@ def fly_script(flight: Any) -> None:
     flight.step(200)
     flight.press("marker")
     flight.hold("nacelle_forward")
-    # Buttons that are pressed come before those that are held; axes come after both.
+    # The buttons of a script's event come before its axes.
     flight.set(pedal_right=0.25, stick_right=0.05)
     flight.step(250)
     flight.release("nacelle_forward")

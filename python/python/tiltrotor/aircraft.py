@@ -130,10 +130,10 @@ def _matrix(found: _native.Linear, name: str) -> NDArray[np.float64]:
 class Aircraft:
     """An aircraft file that was read; the XV-15 without a path. It never changes."""
 
-    _native: _native.Aircraft
+    _held: _native.Aircraft
 
     def __init__(self, path: str | PathLike[str] | None = None) -> None:
-        self._native = _native.Aircraft(None if path is None else fspath(path))
+        self._held = _native.Aircraft(None if path is None else fspath(path))
 
     @classmethod
     def from_toml(cls, toml: str) -> Aircraft:
@@ -143,22 +143,22 @@ class Aircraft:
     @classmethod
     def _over(cls, native: _native.Aircraft) -> Aircraft:
         aircraft = cls.__new__(cls)
-        aircraft._native = native
+        aircraft._held = native
         return aircraft
 
     @property
     def name(self) -> str:
         """What it is called."""
-        return self._native.name
+        return self._held.name
 
     @property
     def toml(self) -> str:
         """The aircraft file, as a flight's log carries it."""
-        return self._native.toml
+        return self._held.toml
 
     def values(self) -> dict[str, str]:
         """Every number that :meth:`with_` can change, by its key (the unit is in the key), as the file has it."""
-        return dict(self._native.values())
+        return dict(self._held.values())
 
     def with_(
         self, changes: Mapping[str, float | str], source: str = "changed in Python"
@@ -168,16 +168,16 @@ class Aircraft:
         Raises KeyError for a key that there is not, TiltrotorError for a number that cannot be.
         """
         texts = [(key, str(value)) for key, value in changes.items()]
-        return Aircraft._over(self._native.with_(texts, source))
+        return Aircraft._over(self._held.with_(texts, source))
 
     def trim(self, **condition: Unpack[Condition]) -> Trim:
         """A steady flight; raises NoSteadyFlight where there is none, or the aircraft cannot fly it."""
-        found = self._native.trim(**condition)
+        found = self._held.trim(**condition)
         return Trim(dict(found.numbers()), found.words())
 
     def linearize(self, **condition: Unpack[Condition]) -> Linear:
         """Small motions about the steady flight of :meth:`trim`."""
-        return Linear(self._native.linearize(**condition))
+        return Linear(self._held.linearize(**condition))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (Aircraft.from_toml, (self.toml,))

@@ -39,16 +39,16 @@ class Flight:
     ) -> None:
         self.aircraft = aircraft or Aircraft()
         if trim is not None:
-            scenario = self.aircraft._native.scenario_in_trim(
+            scenario = self.aircraft._held.scenario_in_trim(
                 scenario or _native.Flight.scenario(start), **trim
             )
-        self._native = _native.Flight(self.aircraft._native, start, scenario)
+        self._held = _native.Flight(self.aircraft._held, start, scenario)
 
     @classmethod
     def _over(cls, native: _native.Flight) -> Flight:
         flight = cls.__new__(cls)
         flight.aircraft = Aircraft._over(native.aircraft)
-        flight._native = native
+        flight._held = native
         return flight
 
     @classmethod
@@ -62,16 +62,16 @@ class Flight:
     @property
     def tick(self) -> int:
         """Ticks flown."""
-        return self._native.tick
+        return self._held.tick
 
     @property
     def time_s(self) -> float:
         """Time flown, s."""
-        return self._native.tick * _native.STEP_S
+        return self._held.tick * _native.STEP_S
 
     def controls(self) -> dict[str, tuple[float, float, str]]:
         """The controls by name: lower and upper end, and what each is."""
-        return {name: (low, 1.0, what) for name, low, what in self._native.controls()}
+        return {name: (low, 1.0, what) for name, low, what in self._held.controls()}
 
     def set(self, **controls: float) -> None:
         """Moves controls with the next step.
@@ -81,38 +81,38 @@ class Flight:
         """
         # By name, as the events of a script are: the same movements are the same log.
         for name in sorted(controls):
-            self._native.set_control(name, float(controls[name]))
+            self._held.set_control(name, float(controls[name]))
 
     def press(self, button: str) -> None:
         """Presses a button and lets it go, with the next step: ``marker``, ``flap_down``, ``gear_toggle``…"""
-        self._native.button(button, True)
-        self._native.button(button, False)
+        self._held.button(button, True)
+        self._held.button(button, False)
 
     def hold(self, button: str) -> None:
         """Presses a button until :meth:`release`: ``nacelle_forward``, ``nacelle_aft``…"""
-        self._native.button(button, True)
+        self._held.button(button, True)
 
     def release(self, button: str) -> None:
         """Lets a button go."""
-        self._native.button(button, False)
+        self._held.button(button, False)
 
     def fail(self, *failures: str) -> None:
         """Failures from the next step on: ``engine_left``, ``scas_yaw``…"""
         for failure in failures:
-            self._native.fail(failure, True)
+            self._held.fail(failure, True)
 
     def mend(self, *failures: str) -> None:
         """Ends failures."""
         for failure in failures:
-            self._native.fail(failure, False)
+            self._held.fail(failure, False)
 
     def wind(self, from_deg: float, kt: float) -> None:
         """Steady wind from a true direction, deg, at a speed, kt."""
-        self._native.wind(from_deg, kt)
+        self._held.wind(from_deg, kt)
 
     def turbulence(self, mps: float) -> None:
         """Vertical intensity of the turbulence, m/s; 0 for still air."""
-        self._native.turbulence(mps)
+        self._held.turbulence(mps)
 
     def computer_commands(self) -> dict[str, float]:
         """What the aircraft's own computer asks the actuators for now, whoever commands them.
@@ -120,7 +120,7 @@ class Flight:
         Angles are in rad, lever, brakes and nacelle switch in parts of their travel. With the SCAS off, or its axes
         failed, it is what the grips alone ask for: the base for a SCAS of one's own.
         """
-        return self._native.computer_commands()
+        return self._held.computer_commands()
 
     def drive_actuators(self, commands: Mapping[str, float]) -> None:
         """Commands the actuators in place of the flight control computer, from the next step on.
@@ -128,15 +128,15 @@ class Flight:
         Keys are those of :meth:`computer_commands`. What is not named stays as it was asked for last. The commands are
         recorded as inputs: the log says that somebody else flew, and reflies exactly without him.
         """
-        self._native.drive_actuators(dict(commands))
+        self._held.drive_actuators(dict(commands))
 
     def release_actuators(self) -> None:
         """Gives the actuators back to the flight control computer."""
-        self._native.drive_actuators(None)
+        self._held.drive_actuators(None)
 
     def step(self, ticks: int = 1) -> None:
         """Flies so many ticks of 4 ms. Ctrl-C is answered within some ten milliseconds."""
-        self._native.step(ticks)
+        self._held.step(ticks)
 
     def fly(self, table: Iterable[Mapping[str, float]]) -> None:
         """Flies a table: every row has ``time_s``, until when it flies, and the controls that it moves before."""
@@ -152,24 +152,24 @@ class Flight:
     @property
     def state(self) -> np.void:
         """The state after the last step: ``state["plant.fuel_kg"]``, exact."""
-        return row("state", self._native.state())
+        return row("state", self._held.state())
 
     @property
     def outputs(self) -> np.void:
         """What could be observed after the last step: ``outputs["airspeed_mps"]``."""
-        return row("outputs", self._native.outputs())
+        return row("outputs", self._held.outputs())
 
     def copy(self) -> Flight:
         """A second flight from here on, without a log; the same inputs fly it to the same bits."""
-        return Flight._over(self._native.copy())
+        return Flight._over(self._held.copy())
 
     def record(self, path: str | PathLike[str], force: bool = False) -> None:
         """Records from here on into an MCAP log; with ``force`` one that is there is set aside."""
-        self._native.record(fspath(path), force)
+        self._held.record(fspath(path), force)
 
     def close(self) -> str | None:
         """Ends the log; the digest of the whole flight, or None when there was no log."""
-        return self._native.close()
+        return self._held.close()
 
     def __enter__(self) -> Flight:
         return self
@@ -179,7 +179,7 @@ class Flight:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """All but the log: the copy goes on to the same bits, in whatever process."""
-        return (_resume, self._native.kept())
+        return (_resume, self._held.kept())
 
     def __repr__(self) -> str:
         return f"<tiltrotor.Flight of {self.aircraft.name} at {self.time_s:.3f} s>"

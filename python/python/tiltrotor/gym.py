@@ -216,7 +216,8 @@ class XV15Env(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             outputs["landing_gear.main.left.push_n"] > 0.0,
         ]
         scaled = np.array(numbers, dtype=np.float64) / np.array(list(OBSERVED.values()))
-        return np.clip(scaled, -_OBSERVED_MAX, _OBSERVED_MAX).astype(np.float32)
+        seen: NDArray[np.float32] = np.clip(scaled, -_OBSERVED_MAX, _OBSERVED_MAX).astype(np.float32)
+        return seen
 
     def _judged(self, outputs: np.void, frozen: bool) -> tuple[float, bool, bool]:
         """Reward; whether the task is done; whether it has failed."""
