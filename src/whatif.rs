@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use engine::inputs::{Failures, World};
 use engine::math::{atan2, min, sqrt};
 use engine::units::{degrees, knots};
-use engine::inputs::{Failures, World};
 use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
 use logs::output::Output;
 use logs::text::{at, size};

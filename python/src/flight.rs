@@ -268,6 +268,7 @@ impl Flight {
     }
 
     /// Records from here on.
+    #[expect(clippy::needless_pass_by_value, reason = "what Python gives is a path of its own")]
     fn record(&mut self, path: PathBuf, force: bool) -> PyResult<()> {
         let origin = self.origin.clone();
         let shape = files::urdf(&self.aircraft.params);

@@ -78,12 +78,12 @@ struct Read {
 pub fn messages<'py>(
     py: Python<'py>,
     path: PathBuf,
-    channel: String,
+    channel: &str,
     from_tick: u64,
     until_tick: u64,
 ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>, Fields, Option<String>)> {
     let name = path.display().to_string();
-    let wanted = bare(&channel).to_string();
+    let wanted = bare(channel).to_string();
     let read = wait(py, move |stop| {
         let mut messages = Messages::open(&path, OPEN)?;
         if (from_tick, until_tick) != (0, u64::MAX) {
@@ -113,7 +113,7 @@ pub fn messages<'py>(
             read.times.extend_from_slice(&message.time_ns.to_le_bytes());
         }
         if let Ending::Damaged(why) = messages.ending() {
-            read.damage = Some(why.to_string());
+            read.damage = Some(why.clone());
         }
         Ok::<_, LogError>(read)
     })?;

@@ -231,7 +231,7 @@ impl Stepped {
             match movement {
                 Movement::Axis(control, at_norm) => self.device.set(&mut reach, control, at_norm),
                 Movement::Button(control, pressed) => {
-                    self.device.press(&mut reach, control, pressed)
+                    self.device.press(&mut reach, control, pressed);
                 }
             }
         }

@@ -99,7 +99,10 @@ impl Changes {
             changes.words.push(format!("mend {key}"));
         }
         if changes.fail.intersects(changes.mend) {
-            return Err(Unchangeable(format!("--fail and --mend name the same: {}", changes.fail & changes.mend)));
+            return Err(Unchangeable(format!(
+                "--fail and --mend name the same: {}",
+                changes.fail & changes.mend
+            )));
         }
         Ok(changes)
     }
@@ -110,12 +113,20 @@ impl Changes {
         };
         let Some(key) = KEYS.iter().find(|key| key.name == name) else {
             let names: Vec<&str> = KEYS.iter().map(|key| key.name).collect();
-            return Err(Unchangeable(format!("--world {setting}: unknown key {name}{}", meant(name, &names))));
+            return Err(Unchangeable(format!(
+                "--world {setting}: unknown key {name}{}",
+                meant(name, &names)
+            )));
         };
         let (least, greatest) = key.range;
         let value: f64 = match value.parse() {
             Ok(value) if (least..=greatest).contains(&value) => value,
-            _ => return Err(Unchangeable(format!("--world {setting}: expected {least} to {greatest} {}", key.unit))),
+            _ => {
+                return Err(Unchangeable(format!(
+                    "--world {setting}: expected {least} to {greatest} {}",
+                    key.unit
+                )));
+            }
         };
         if name.starts_with("gust") {
             self.gust_start_tick = Some(from_tick);
@@ -143,7 +154,9 @@ impl Changes {
 fn failure(option: &str, key: &str) -> Result<Failures, Unchangeable> {
     match Failures::from_key(key) {
         Some(failure) => Ok(failure),
-        None => Err(Unchangeable(format!("{option} {key}: unknown key{}", meant(key, Failures::KEYS)))),
+        None => {
+            Err(Unchangeable(format!("{option} {key}: unknown key{}", meant(key, Failures::KEYS))))
+        }
     }
 }
 
@@ -161,11 +174,7 @@ mod tests {
 
     use super::*;
 
-    fn read(
-        world: &[&str],
-        fail: &[&str],
-        mend: &[&str],
-    ) -> Result<Changes, Unchangeable> {
+    fn read(world: &[&str], fail: &[&str], mend: &[&str]) -> Result<Changes, Unchangeable> {
         let owned = |list: &[&str]| list.iter().map(ToString::to_string).collect::<Vec<_>>();
         Changes::read(&owned(world), &owned(fail), &owned(mend), 250)
     }
