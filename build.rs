@@ -21,6 +21,9 @@ const SOURCES: [&str; 12] = [
     "replay",
 ];
 
+/// What the Python package is built from beside them.
+const SOURCES_OF_PYTHON: [&str; 3] = ["python/Cargo.lock", "python/Cargo.toml", "python/src"];
+
 /// Tells which of them are not as committed.
 const STATUS: [&str; 5] =
     ["--no-optional-locks", "status", "--porcelain", "--untracked-files=no", "--"];
@@ -97,11 +100,28 @@ fn structs(text: &str) -> Vec<(String, Fields)> {
     found
 }
 
+/// The tree's root: the package's own folder, or the one above it, for packages with a workspace of their
+/// own.
+fn root() -> PathBuf {
+    let package = env::var_os("CARGO_MANIFEST_DIR").map_or_else(PathBuf::new, PathBuf::from);
+    match package.parent() {
+        Some(above) if !package.join("engine").is_dir() => above.into(),
+        _ => package,
+    }
+}
+
 fn main() {
+    let root = root();
+    let entered = env::set_current_dir(&root);
+    assert!(entered.is_ok(), "{}: {entered:?}", root.display());
+    let mut sources = SOURCES.to_vec();
+    if env::var("CARGO_PKG_NAME").is_ok_and(|name| name == "tiltrotor-python") {
+        sources.extend(SOURCES_OF_PYTHON);
+    }
     describe();
     let unknown = || "unknown".to_string();
     let commit = said_by("git", &["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(unknown);
-    let dirty = said_by("git", &[&STATUS[..], &SOURCES[..]].concat())
+    let dirty = said_by("git", &[&STATUS[..], &sources[..]].concat())
         .map_or_else(unknown, |changes| (!changes.is_empty()).to_string());
     let rustc = env::var("RUSTC")
         .ok()
@@ -122,10 +142,10 @@ fn main() {
     // tree beside the main one, `.git` is a file, and a path that is not there builds all anew.
     for git in ["HEAD", "index", "refs"] {
         if let Some(path) = said_by("git", &["rev-parse", "--git-path", git]) {
-            println!("cargo:rerun-if-changed={path}");
+            println!("cargo:rerun-if-changed={}", root.join(path).display());
         }
     }
-    for path in SOURCES {
-        println!("cargo:rerun-if-changed={path}");
+    for path in sources {
+        println!("cargo:rerun-if-changed={}", root.join(path).display());
     }
 }

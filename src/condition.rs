@@ -2,11 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use analysis::trim::{Power, Target};
-use anyhow::{Context, Result, bail};
-use engine::math::min;
-use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_RADPS};
-use engine::{Aircraft, GRAVITY_MPS2};
+use analysis::trim::Target;
+use anyhow::Result;
+use engine::Aircraft;
 
 use crate::numbers::between;
 use crate::{numbers, texts};
@@ -77,42 +75,6 @@ pub struct Condition {
     pub aircraft: Option<PathBuf>,
 }
 
-/// The flap lever that the reference model's trims use at a nacelle incidence, deg.
-fn usual_flap_deg(nacelle_deg: f64) -> f64 {
-    if nacelle_deg > 75.0 {
-        40.0
-    } else if nacelle_deg > 15.0 {
-        20.0
-    } else {
-        0.0
-    }
-}
-
-/// The detent of a flap lever position, or of the usual one at a nacelle incidence.
-pub fn flap_detent(aircraft: &Aircraft, flap_deg: Option<f64>, nacelle_deg: f64) -> Result<u64> {
-    let wanted_deg = flap_deg.unwrap_or_else(|| usual_flap_deg(nacelle_deg));
-    let offered = aircraft.fcc.mixer.flap_rad.map(|rad| rad * DEG_PER_RAD);
-    let Some(detent) = offered.iter().position(|deg| (deg - wanted_deg).abs() < 0.5) else {
-        bail!("--flap {wanted_deg}: the lever has detents at {offered:.0?} deg");
-    };
-    Ok(detent as u64)
-}
-
-/// The number of a rotor speed, or of the usual one at a nacelle incidence.
-pub fn rpm_select(aircraft: &Aircraft, rpm: Option<f64>, nacelle_deg: f64) -> Result<u64> {
-    let offered = aircraft.fcc.governor.rotor_speed_radps.map(|radps| radps / RPM_RADPS);
-    match rpm {
-        None if nacelle_deg < 1.0 => Ok(engine::cockpit::RPM_SELECT_LAST),
-        None => Ok(0),
-        Some(rpm) => match offered.iter().position(|offer| (offer - rpm).abs() < 1.0) {
-            Some(0) => Ok(0),
-            Some(number) if nacelle_deg < 1.0 => Ok(number as u64),
-            Some(_) => bail!("--rpm {rpm}: only with the nacelles down, at --nacelle 0"),
-            None => bail!("--rpm {rpm}: the governor offers {offered:.0?} rpm"),
-        },
-    }
-}
-
 impl Condition {
     /// The files that it is read from.
     pub fn files(&self) -> Vec<&Path> {
@@ -123,58 +85,27 @@ impl Condition {
     pub fn read(&self) -> Result<(Aircraft, Target)> {
         let (name, text) = texts::text_or(self.aircraft.as_deref(), "xv15.toml", aircraft::XV15)?;
         let aircraft = aircraft::aircraft(&name, &text)?;
-        let airspeed_mps = self.speed_kt * KNOT_MPS;
-        let (aircraft, fuel_kg) = weigh(aircraft, self.weight_lb * POUND_KG)?;
-        let target = Target {
-            mast_tilt_rad: (90.0 - self.nacelle) / DEG_PER_RAD,
-            airspeed_mps,
-            power: match self.lever {
-                Some(percent) => Power::Lever(0.01 * percent),
-                None => Power::Climb(self.climb_fpm * FOOT_M / 60.0),
-            },
-            turn_radps: self.turn_radps(airspeed_mps)?,
-            sideslip_rad: self.sideslip_deg / DEG_PER_RAD,
-            altitude_m: self.altitude_ft * FOOT_M,
-            fuel_kg,
-            flap_detent: flap_detent(&aircraft, self.flap, self.nacelle)?,
-            rpm_select: rpm_select(&aircraft, self.rpm, self.nacelle)?,
-            gear_down: u64::from(self.gear),
-            scas_on: u64::from(self.scas),
-            ..Target::default()
-        };
-        let mut world = target.world;
-        world.temperature_offset_k = self.isa_k;
-        if let Some(height_ft) = self.height_ft {
-            world = world.with_ground((self.altitude_ft - height_ft) * FOOT_M);
-        }
-        Ok((aircraft, Target { world, ..target }))
+        Ok(self.in_a_pilots_units().target(&aircraft)?)
     }
 
-    fn turn_radps(&self, airspeed_mps: f64) -> Result<f64> {
-        let Some(bank_deg) = self.bank_deg else { return Ok(self.turn_degps / DEG_PER_RAD) };
-        if airspeed_mps < 5.0 || bank_deg.abs() > 75.0 {
-            bail!("--bank-deg: expected up to 75 deg, and some speed to turn with");
+    fn in_a_pilots_units(&self) -> analysis::condition::Condition {
+        analysis::condition::Condition {
+            nacelle_deg: self.nacelle,
+            speed_kt: self.speed_kt,
+            climb_fpm: self.climb_fpm,
+            lever_percent: self.lever,
+            turn_degps: self.turn_degps,
+            bank_deg: self.bank_deg,
+            sideslip_deg: self.sideslip_deg,
+            weight_lb: self.weight_lb,
+            altitude_ft: self.altitude_ft,
+            height_ft: self.height_ft,
+            isa_k: self.isa_k,
+            flap_deg: self.flap,
+            rpm: self.rpm,
+            gear_down: self.gear,
+            scas_on: self.scas,
         }
-        Ok(GRAVITY_MPS2 * engine::math::tan(bank_deg / DEG_PER_RAD) / airspeed_mps)
-    }
-}
-
-/// The aircraft at a gross mass, and its fuel in kg: by the fuel where that can be, by the empty mass
-/// otherwise.
-pub fn weigh(aircraft: Aircraft, mass_kg: f64) -> Result<(Aircraft, f64)> {
-    let weights = &aircraft.weight_balance;
-    let fuel_kg = mass_kg - weights.zero_fuel_mass_kg;
-    if fuel_kg > 0.0 && fuel_kg <= weights.fuel_kg_max + 1.0 {
-        return Ok((aircraft, fuel_kg));
-    }
-    let fuel_kg = min(0.5 * weights.fuel_kg_max, 0.1 * mass_kg);
-    if mass_kg.is_finite() && mass_kg > 1000.0 && mass_kg < 20_000.0 {
-        let zero_fuel_mass_kg = mass_kg - fuel_kg;
-        let loaded = aircraft.with(|a| a.weight_balance.zero_fuel_mass_kg = zero_fuel_mass_kg);
-        Ok((loaded, fuel_kg))
-    } else {
-        Err(anyhow::anyhow!("{:.0} lb", mass_kg / POUND_KG))
-            .context("no weight of such an aircraft")
     }
 }
 

@@ -34,7 +34,7 @@ use crate::link_args::{LinkArgs, Linked};
 use crate::panel::{Cockpit, Panel};
 use crate::status::Status;
 use crate::texts::{name_of, read, text_or};
-use crate::{condition, controls, identity, numbers, report};
+use crate::{controls, identity, numbers, report};
 
 /// What flies, from where, and where it is recorded.
 #[derive(clap::Args)]
@@ -378,20 +378,19 @@ impl Plan {
         if self.flight.start.trim.is_some() {
             bail!("--from-trim: the scenario begins in the air already, by its table [trim]");
         }
-        let (aircraft, nacelle_deg) = (&self.flight.aircraft, air.nacelle);
-        let detent = condition::flap_detent(aircraft, air.flap, nacelle_deg)?;
-        let rpm_select = condition::rpm_select(aircraft, air.rpm, nacelle_deg)?;
+        let wanted = analysis::condition::Condition {
+            nacelle_deg: air.nacelle,
+            speed_kt: air.speed_kt,
+            altitude_ft: air.altitude_ft,
+            climb_fpm: air.climb_fpm,
+            flap_deg: air.flap,
+            rpm: air.rpm,
+            scas_on: !air.scas_off,
+            ..analysis::condition::Condition::default()
+        };
+        let table = wanted.start_toml(&self.flight.aircraft, "--from-trim")?;
         let scenario = &mut self.flight.setup.scenario_toml;
-        scenario.push_str(&format!(
-            "\n[trim] # by --from-trim\nmast_tilt_deg = {:?}\nairspeed_kt = {:?}\n\
-             altitude_ft = {:?}\nclimb_fpm = {:?}\nflap_detent = {detent}\n\
-             rpm_select = {rpm_select}\nscas_on = {}\n",
-            90.0 - nacelle_deg,
-            air.speed_kt,
-            air.altitude_ft,
-            air.climb_fpm,
-            u64::from(!air.scas_off),
-        ));
+        scenario.push_str(&table);
         self.flight.start = aircraft::start("scenario.toml", scenario)?;
         Ok(())
     }

@@ -1,17 +1,16 @@
 //! `tiltrotor whatif`.
 
-mod changes;
-
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use changes::Changes;
+use engine::inputs::{Failures, World};
 use engine::math::{atan2, min, sqrt};
 use engine::units::{degrees, knots};
 use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
 use logs::output::Output;
 use logs::text::{at, size};
 use logs::{FlightReader, Setup, Tick};
+use replay::changes::{Changes, KEYS};
 use replay::{NewLog, Source, Window, names_parent, parent, rewrite_in};
 
 use crate::identity;
@@ -158,12 +157,33 @@ impl Wanted {
 /// Prints every key that can be changed, with its value and unit.
 fn list(reader: &mut FlightReader, setup: &Setup) -> Result<Status> {
     reader.next_tick()?;
-    changes::list(reader.tick.inputs.world);
+    list_world(reader.tick.inputs.world);
     say!("--set KEY=VALUE, the unit in the key");
     for (key, value) in aircraft::values("aircraft.toml", &setup.aircraft_toml)? {
         say!("  {key} = {value}");
     }
     Ok(Status::Done)
+}
+
+/// Prints every key of the world with its value and unit, and every failure.
+fn list_world(world: World) {
+    let (wind, failures) = (world.wind_mps, world.failures);
+    say!("--world KEY=VALUE");
+    for key in &KEYS {
+        let (value, (least, greatest)) = (key.value(world), key.range);
+        let number = format!("{} = {value}", key.name);
+        say!("  {number:<32} {:<4} {}, {least} to {greatest}", key.unit, key.description);
+    }
+    let speed_mps = sqrt(wind.x * wind.x + wind.y * wind.y);
+    if speed_mps > 0.0 {
+        let from_deg = degrees(atan2(-wind.y, -wind.x)).rem_euclid(360.0);
+        say!("  {:<37} wind from {from_deg:03.0} deg, {speed_mps:.1} m/s", "");
+    }
+    say!("--fail KEY, --mend KEY");
+    for fact in Failures::FACTS {
+        let now = if failures.contains(fact.flag) { "failed" } else { "works" };
+        say!("  {:<32} {now:<6} {}", fact.key, fact.description);
+    }
 }
 
 /// The recorded inputs flown unchanged beside what is changed: without it nobody could tell what the

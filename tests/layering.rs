@@ -21,6 +21,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("logs", &["engine"]),
     ("recorder", &["aircraft", "analysis", "engine", "flightgear", "logs"]),
     ("replay", &["aircraft", "analysis", "chart", "engine", "logs"]),
+    ("tiltrotor-python", &["aircraft", "analysis", "engine", "logs", "recorder", "replay"]),
 ];
 
 /// Crates of others that one crate of ours alone may know.
@@ -36,6 +37,7 @@ const KEPT: &[(&str, &str)] = &[
     ("parquet", "logs"),
     ("png", "flightgear-package"),
     ("re_protos", "replay"),
+    ("pyo3", "tiltrotor-python"),
     ("rerun", "replay"),
     ("rustfft", "replay"),
     ("tiny-skia", "chart"),
@@ -168,8 +170,10 @@ fn the_analysis_knows_the_engine_and_matrices_without_the_standard_library() {
 #[test]
 fn unsafe_code_is_forbidden_everywhere() {
     let workspace = manifest(&root());
-    let lint = &workspace["workspace"]["lints"]["rust"]["unsafe_code"];
-    assert_eq!(lint.as_str(), Some("forbid"));
+    for workspace in [&workspace, &manifest(&root().join("python"))] {
+        let lint = &workspace["workspace"]["lints"]["rust"]["unsafe_code"];
+        assert_eq!(lint.as_str(), Some("forbid"));
+    }
     let mut everyone = crates();
     everyone.insert("tiltrotor".into(), workspace);
     for (name, manifest) in everyone {

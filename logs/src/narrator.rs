@@ -103,6 +103,16 @@ impl Narrator {
             let words = if now.paused != 0 { "paused" } else { "goes on" };
             writer.happened(tick, Happening::Paused, now.paused, [0.0; 2], words)?;
         }
+        let outside = |world: &World| world.outside_commands().is_some();
+        if outside(&now) != outside(&was) {
+            let words = if outside(&now) {
+                "actuators: commanded from outside"
+            } else {
+                "actuators: commanded by the flight control computer"
+            };
+            let level = u64::from(outside(&now));
+            writer.happened(tick, Happening::InputLevel, level, [0.0; 2], words)?;
+        }
         self.weather(writer, tick, &was)
     }
 

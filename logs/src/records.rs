@@ -283,6 +283,11 @@ engine::enumeration! {
             key: "scas_saturation", value: "the axes now: bit 0 pitch, 1 roll, 2 yaw, 3 the pitch trim",
             levels: Levels::always(Level::Info),
         }
+        /// Somebody else's computer took the actuators, or gave them back to the aircraft's own.
+        InputLevel = 23 {
+            key: "input_level", value: "1 commands from outside, 0 the aircraft's own computer",
+            levels: Levels::with_zero(Level::Info, Level::Warn),
+        }
     }
 }
 

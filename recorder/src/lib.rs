@@ -27,6 +27,7 @@ pub mod script;
 mod self_check;
 pub mod situation;
 pub mod statistics;
+mod stepped;
 pub mod writer;
 
 pub use clock::{Pace, RealTime, Woken};
@@ -41,4 +42,5 @@ pub use progress::{Progress, Shown, Snapshot, Told};
 pub use rehearsal::{RehearsedTick, rehearse};
 pub use restart::{Restart, Situation};
 pub use self_check::{Checked, Mismatch};
+pub use stepped::{Moment, Movement, StepError, Stepped};
 pub use writer::Delay;

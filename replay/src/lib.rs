@@ -1,6 +1,7 @@
 //! Rerunning a flight log: bit-exact verification, and the review in the rerun viewer.
 
 mod bless;
+pub mod changes;
 pub mod compare;
 mod diagnosis;
 mod diff;

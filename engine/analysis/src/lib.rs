@@ -1,8 +1,9 @@
 //! What is asked of the flight model beside flying it: steady flight, small motions about it, and
 //! their modes.
 //!
-//! [`trim()`](trim::trim) finds a steady flight, [`linearize()`](linearize::linearize) the state-space
-//! matrices about it, [`modes()`](modes::modes) their eigenvalues and what these are called;
+//! A [`Condition`](condition::Condition) asks for a steady flight in a pilot's units,
+//! [`trim()`](trim::trim) finds it, [`linearize()`](linearize::linearize) the state-space matrices
+//! about it, [`modes()`](modes::modes) their eigenvalues and what these are called;
 //! [`state_at()`](start::state_at) begins a flight as its scenario says. All of them evaluate
 //! [`engine::step::derivatives`] and nothing else of the engine's physics, and none of them is part of a
 //! flight: what a flight begins with is recorded.
@@ -13,6 +14,7 @@
 
 extern crate alloc;
 
+pub mod condition;
 mod eigen;
 mod francis;
 pub mod linearize;

@@ -10,6 +10,7 @@ use crate::hands::Reach;
 pub const DEVICE: &str = "pilot";
 
 /// A device that exists in the map only: moves controls by sending what a real one would send.
+#[derive(Clone, Debug)]
 pub struct VirtualDevice {
     number: u64,
     device: cockpit::Device,
@@ -34,6 +35,17 @@ impl VirtualDevice {
     /// Forgets where the axes were sent to: something else has moved the controls.
     pub fn forget(&mut self) {
         self.sent.clear();
+    }
+
+    /// Where each axis was sent to last: its code, and the raw value.
+    pub fn sent(&self) -> &[(u64, i64)] {
+        &self.sent
+    }
+
+    /// The same device after it was sent there.
+    #[must_use]
+    pub fn after(self, sent: Vec<(u64, i64)>) -> Self {
+        Self { sent, ..self }
     }
 
     /// The controls that it has an axis for, as the engine lists them.

@@ -25,6 +25,7 @@
 use engine::Aircraft;
 use engine::math::{PI, clamp, cos, max, sin, square};
 
+mod columns;
 mod found;
 mod newton;
 mod problem;
@@ -33,6 +34,7 @@ mod residual;
 mod settle;
 mod target;
 
+pub use columns::{COLUMNS, Column};
 pub use found::{Failure, Trim};
 use problem::{Problem, unlimited};
 pub use report::Report;

@@ -1,17 +1,30 @@
 //! What a what-if changes of the world: weather set, failures set and mended.
 
-use anyhow::{Result, bail};
 use engine::inputs::{Failures, World};
-use engine::units::degrees;
+
+/// A change that cannot be made: which, and what was expected.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unchangeable(String);
 
 /// A number of the world that can be set.
-struct Key {
-    name: &'static str,
-    description: &'static str,
-    unit: &'static str,
+pub struct Key {
+    /// Its name, as in the log.
+    pub name: &'static str,
+    /// What it is.
+    pub description: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
     /// Least and greatest.
-    range: (f64, f64),
+    pub range: (f64, f64),
     of: fn(&mut World) -> &mut f64,
+}
+
+impl Key {
+    /// What it is in a world.
+    pub fn value(&self, mut world: World) -> f64 {
+        *(self.of)(&mut world)
+    }
 }
 
 const fn key(
@@ -28,7 +41,7 @@ const WIND: (f64, f64) = (-100.0, 100.0);
 const GUST: (f64, f64) = (-50.0, 50.0);
 
 /// The ranges are those of scripts, or what the engine clamps to.
-const KEYS: [Key; 11] = [
+pub const KEYS: [Key; 11] = [
     key("wind_mps.x", "m/s", "motion of the air northwards", WIND, |w| &mut w.wind_mps.x),
     key("wind_mps.y", "m/s", "motion of the air eastwards", WIND, |w| &mut w.wind_mps.y),
     key("wind_mps.z", "m/s", "motion of the air downwards", WIND, |w| &mut w.wind_mps.z),
@@ -63,13 +76,16 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Reads them; `from_tick` is the first tick they are for.
+    /// Reads them, settings of numbers as `KEY=VALUE`; `from_tick` is the first tick they are for.
+    ///
+    /// # Errors
+    /// When there is no such key, or its value cannot be.
     pub fn read(
         world: &[String],
         fail: &[String],
         mend: &[String],
         from_tick: u64,
-    ) -> Result<Self> {
+    ) -> Result<Self, Unchangeable> {
         let mut changes = Self::default();
         for setting in world {
             changes.number(setting, from_tick)?;
@@ -83,23 +99,34 @@ impl Changes {
             changes.words.push(format!("mend {key}"));
         }
         if changes.fail.intersects(changes.mend) {
-            bail!("--fail and --mend name the same: {}", changes.fail & changes.mend);
+            return Err(Unchangeable(format!(
+                "--fail and --mend name the same: {}",
+                changes.fail & changes.mend
+            )));
         }
         Ok(changes)
     }
 
-    fn number(&mut self, setting: &str, from_tick: u64) -> Result<()> {
+    fn number(&mut self, setting: &str, from_tick: u64) -> Result<(), Unchangeable> {
         let Some((name, value)) = setting.split_once('=').map(|(k, v)| (k.trim(), v.trim())) else {
-            bail!("--world {setting}: expected KEY=VALUE");
+            return Err(Unchangeable(format!("--world {setting}: expected KEY=VALUE")));
         };
         let Some(key) = KEYS.iter().find(|key| key.name == name) else {
             let names: Vec<&str> = KEYS.iter().map(|key| key.name).collect();
-            bail!("--world {setting}: unknown key {name}{}", meant(name, &names));
+            return Err(Unchangeable(format!(
+                "--world {setting}: unknown key {name}{}",
+                meant(name, &names)
+            )));
         };
         let (least, greatest) = key.range;
         let value: f64 = match value.parse() {
             Ok(value) if (least..=greatest).contains(&value) => value,
-            _ => bail!("--world {setting}: expected {least} to {greatest} {}", key.unit),
+            _ => {
+                return Err(Unchangeable(format!(
+                    "--world {setting}: expected {least} to {greatest} {}",
+                    key.unit
+                )));
+            }
         };
         if name.starts_with("gust") {
             self.gust_start_tick = Some(from_tick);
@@ -124,10 +151,12 @@ impl Changes {
     }
 }
 
-fn failure(option: &str, key: &str) -> Result<Failures> {
+fn failure(option: &str, key: &str) -> Result<Failures, Unchangeable> {
     match Failures::from_key(key) {
         Some(failure) => Ok(failure),
-        None => bail!("{option} {key}: unknown key{}", meant(key, Failures::KEYS)),
+        None => {
+            Err(Unchangeable(format!("{option} {key}: unknown key{}", meant(key, Failures::KEYS))))
+        }
     }
 }
 
@@ -139,34 +168,13 @@ fn meant(key: &str, keys: &[&str]) -> String {
     }
 }
 
-/// Prints every key of the world with its value and unit, and every failure.
-pub fn list(mut world: World) {
-    let (wind, failures) = (world.wind_mps, world.failures);
-    say!("--world KEY=VALUE");
-    for key in &KEYS {
-        let (value, (least, greatest)) = (*(key.of)(&mut world), key.range);
-        let number = format!("{} = {value}", key.name);
-        say!("  {number:<32} {:<4} {}, {least} to {greatest}", key.unit, key.description);
-    }
-    let speed_mps = engine::math::sqrt(wind.x * wind.x + wind.y * wind.y);
-    if speed_mps > 0.0 {
-        let from_deg = degrees(engine::math::atan2(-wind.y, -wind.x)).rem_euclid(360.0);
-        say!("  {:<37} wind from {from_deg:03.0} deg, {speed_mps:.1} m/s", "");
-    }
-    say!("--fail KEY, --mend KEY");
-    for fact in Failures::FACTS {
-        let now = if failures.contains(fact.flag) { "failed" } else { "works" };
-        say!("  {:<32} {now:<6} {}", fact.key, fact.description);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use engine::math::{max, min};
 
     use super::*;
 
-    fn read(world: &[&str], fail: &[&str], mend: &[&str]) -> Result<Changes> {
+    fn read(world: &[&str], fail: &[&str], mend: &[&str]) -> Result<Changes, Unchangeable> {
         let owned = |list: &[&str]| list.iter().map(ToString::to_string).collect::<Vec<_>>();
         Changes::read(&owned(world), &owned(fail), &owned(mend), 250)
     }

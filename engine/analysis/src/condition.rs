@@ -1,0 +1,344 @@
+//! The steady flight that is asked about, in a pilot's units.
+
+use alloc::format;
+use alloc::string::String;
+use core::fmt;
+
+use engine::math::{min, tan};
+use engine::units::{DEG_PER_RAD, FOOT_M, KNOT_MPS, POUND_KG, RPM_RADPS};
+use engine::{Aircraft, GRAVITY_MPS2};
+
+use crate::trim::{Power, Target};
+
+/// A steady flight, in a pilot's units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// Nacelle incidence: 90 helicopter, 0 aeroplane, deg.
+    pub nacelle_deg: f64,
+    /// True airspeed, kt.
+    pub speed_kt: f64,
+    /// Rate of climb, ft/min.
+    pub climb_fpm: f64,
+    /// Power lever instead of a rate of climb, % of its travel: the climb follows.
+    pub lever_percent: Option<f64>,
+    /// Rate of turn, right positive, deg/s.
+    pub turn_degps: f64,
+    /// Bank of a turn, right positive, deg; instead of its rate.
+    pub bank_deg: Option<f64>,
+    /// Sideslip, air from the right positive, deg.
+    pub sideslip_deg: f64,
+    /// Gross weight, lb.
+    pub weight_lb: f64,
+    /// Above mean sea level, ft.
+    pub altitude_ft: f64,
+    /// Centre of gravity above the ground, ft; the ground is not felt without.
+    pub height_ft: Option<f64>,
+    /// Warmer than the standard atmosphere by, K.
+    pub isa_k: f64,
+    /// Flap lever, one of its detents, deg; without: 40 with nacelles above 75 deg, 20 above 15, else 0.
+    pub flap_deg: Option<f64>,
+    /// Rotor speed, one of those the governor offers, rpm; without: the slowest below 1 deg of nacelle.
+    pub rpm: Option<f64>,
+    /// Gear down.
+    pub gear_down: bool,
+    /// SCAS on, centred.
+    pub scas_on: bool,
+}
+
+impl Default for Condition {
+    /// Hover as a helicopter at sea level, 13,000 lb, far from the ground.
+    fn default() -> Self {
+        Self {
+            nacelle_deg: 90.0,
+            speed_kt: 0.0,
+            climb_fpm: 0.0,
+            lever_percent: None,
+            turn_degps: 0.0,
+            bank_deg: None,
+            sideslip_deg: 0.0,
+            weight_lb: 13_000.0,
+            altitude_ft: 0.0,
+            height_ft: None,
+            isa_k: 0.0,
+            flap_deg: None,
+            rpm: None,
+            gear_down: false,
+            scas_on: false,
+        }
+    }
+}
+
+/// A number of a condition, and what it may be.
+struct Range {
+    name: &'static str,
+    unit: &'static str,
+    least: f64,
+    greatest: f64,
+    of: fn(&Condition) -> Option<f64>,
+}
+
+const fn range(
+    name: &'static str,
+    unit: &'static str,
+    (least, greatest): (f64, f64),
+    of: fn(&Condition) -> Option<f64>,
+) -> Range {
+    Range { name, unit, least, greatest, of }
+}
+
+/// Nacelles: a degree beyond the stops, for trims at a stop. Backwards: as far as helicopters fly so.
+/// Altitude: as far as there is air.
+const RANGES: [Range; 13] = [
+    range("nacelle_deg", "deg", (-1.0, 96.0), |c| Some(c.nacelle_deg)),
+    range("speed_kt", "kt", (-60.0, 400.0), |c| Some(c.speed_kt)),
+    range("climb_fpm", "ft/min", (-20_000.0, 20_000.0), |c| Some(c.climb_fpm)),
+    range("lever_percent", "%", (0.0, 100.0), |c| c.lever_percent),
+    range("turn_degps", "deg/s", (-90.0, 90.0), |c| Some(c.turn_degps)),
+    range("bank_deg", "deg", (-75.0, 75.0), |c| c.bank_deg),
+    range("sideslip_deg", "deg", (-180.0, 180.0), |c| Some(c.sideslip_deg)),
+    range("weight_lb", "lb", (2_500.0, 44_000.0), |c| Some(c.weight_lb)),
+    range("altitude_ft", "ft", (-6_000.0, 60_000.0), |c| Some(c.altitude_ft)),
+    range("height_ft", "ft", (0.0, 60_000.0), |c| c.height_ft),
+    range("isa_k", "K", (-80.0, 80.0), |c| Some(c.isa_k)),
+    range("flap_deg", "deg", (0.0, 90.0), |c| c.flap_deg),
+    range("rpm", "rpm", (0.0, 2_000.0), |c| c.rpm),
+];
+
+/// Why nothing flies so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    /// A number that no condition has.
+    Number {
+        /// Which.
+        name: &'static str,
+        /// As asked for.
+        value: f64,
+        /// The least that is flown.
+        least: f64,
+        /// The greatest.
+        greatest: f64,
+        /// The unit of all three.
+        unit: &'static str,
+    },
+    /// The flap lever has no such detent.
+    Flap {
+        /// As asked for, deg.
+        wanted_deg: f64,
+        /// The detents, deg.
+        offered_deg: [f64; 4],
+    },
+    /// The governor has no such speed.
+    Rpm {
+        /// As asked for, rpm.
+        wanted: f64,
+        /// The speeds, rpm.
+        offered: [f64; 3],
+    },
+    /// A speed of the aeroplane with the nacelles not down.
+    RpmOfTheAeroplane {
+        /// As asked for, rpm.
+        wanted: f64,
+    },
+    /// A bank that is no turn.
+    Bank,
+    /// A weight that no such aircraft has.
+    Weight {
+        /// As asked for, lb.
+        weight_lb: f64,
+    },
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number { name, value, least, greatest, unit } => {
+                write!(f, "{name} {value}: expected {least} to {greatest} {unit}")
+            }
+            Self::Flap { wanted_deg, offered_deg } => {
+                write!(f, "flap {wanted_deg} deg: the lever has detents at {offered_deg:.0?} deg")
+            }
+            Self::Rpm { wanted, offered } => {
+                write!(f, "rotor speed {wanted} rpm: the governor offers {offered:.0?} rpm")
+            }
+            Self::RpmOfTheAeroplane { wanted } => {
+                write!(f, "rotor speed {wanted} rpm: only with the nacelles down, at 0 deg")
+            }
+            Self::Bank => f.write_str("bank: expected up to 75 deg, and some speed to turn with"),
+            Self::Weight { weight_lb } => {
+                write!(f, "{weight_lb:.0} lb: no weight of such an aircraft")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Fault {}
+
+/// The flap lever that the reference model's trims use at a nacelle incidence, deg.
+fn usual_flap_deg(nacelle_deg: f64) -> f64 {
+    if nacelle_deg > 75.0 {
+        40.0
+    } else if nacelle_deg > 15.0 {
+        20.0
+    } else {
+        0.0
+    }
+}
+
+/// The detent of a flap lever position, or of the usual one at a nacelle incidence.
+///
+/// # Errors
+/// When the lever has no such detent.
+pub fn flap_detent(
+    aircraft: &Aircraft,
+    flap_deg: Option<f64>,
+    nacelle_deg: f64,
+) -> Result<u64, Fault> {
+    let wanted_deg = flap_deg.unwrap_or_else(|| usual_flap_deg(nacelle_deg));
+    let offered_deg = aircraft.fcc.mixer.flap_rad.map(|rad| rad * DEG_PER_RAD);
+    let detent = offered_deg.iter().position(|deg| (deg - wanted_deg).abs() < 0.5);
+    detent.map(|detent| detent as u64).ok_or(Fault::Flap { wanted_deg, offered_deg })
+}
+
+/// The number of a rotor speed, or of the usual one at a nacelle incidence.
+///
+/// # Errors
+/// When the governor has no such speed, or not at that incidence.
+pub fn rpm_select(aircraft: &Aircraft, rpm: Option<f64>, nacelle_deg: f64) -> Result<u64, Fault> {
+    let offered = aircraft.fcc.governor.rotor_speed_radps.map(|radps| radps / RPM_RADPS);
+    let Some(wanted) = rpm else {
+        return Ok(if nacelle_deg < 1.0 { engine::cockpit::RPM_SELECT_LAST } else { 0 });
+    };
+    match offered.iter().position(|offer| (offer - wanted).abs() < 1.0) {
+        Some(0) => Ok(0),
+        Some(number) if nacelle_deg < 1.0 => Ok(number as u64),
+        Some(_) => Err(Fault::RpmOfTheAeroplane { wanted }),
+        None => Err(Fault::Rpm { wanted, offered }),
+    }
+}
+
+/// The aircraft at a gross mass, and its fuel in kg: by the fuel where that can be, by the empty mass
+/// otherwise.
+///
+/// # Errors
+/// When no such aircraft has that mass.
+pub fn weigh(aircraft: &Aircraft, mass_kg: f64) -> Result<(Aircraft, f64), Fault> {
+    let weights = &aircraft.weight_balance;
+    let fuel_kg = mass_kg - weights.zero_fuel_mass_kg;
+    if fuel_kg > 0.0 && fuel_kg <= weights.fuel_kg_max + 1.0 {
+        return Ok((aircraft.clone(), fuel_kg));
+    }
+    let fuel_kg = min(0.5 * weights.fuel_kg_max, 0.1 * mass_kg);
+    if mass_kg.is_finite() && mass_kg > 1000.0 && mass_kg < 20_000.0 {
+        let zero_fuel_mass_kg = mass_kg - fuel_kg;
+        let loaded =
+            aircraft.clone().with(|a| a.weight_balance.zero_fuel_mass_kg = zero_fuel_mass_kg);
+        Ok((loaded, fuel_kg))
+    } else {
+        Err(Fault::Weight { weight_lb: mass_kg / POUND_KG })
+    }
+}
+
+impl Condition {
+    /// The aircraft, as heavy as asked for, and the flight.
+    ///
+    /// # Errors
+    /// When nothing flies so.
+    pub fn target(&self, aircraft: &Aircraft) -> Result<(Aircraft, Target), Fault> {
+        self.within()?;
+        let airspeed_mps = self.speed_kt * KNOT_MPS;
+        let (aircraft, fuel_kg) = weigh(aircraft, self.weight_lb * POUND_KG)?;
+        let target = Target {
+            mast_tilt_rad: (90.0 - self.nacelle_deg) / DEG_PER_RAD,
+            airspeed_mps,
+            power: match self.lever_percent {
+                Some(percent) => Power::Lever(0.01 * percent),
+                None => Power::Climb(self.climb_fpm * FOOT_M / 60.0),
+            },
+            turn_radps: self.turn_radps(airspeed_mps)?,
+            sideslip_rad: self.sideslip_deg / DEG_PER_RAD,
+            altitude_m: self.altitude_ft * FOOT_M,
+            fuel_kg,
+            flap_detent: flap_detent(&aircraft, self.flap_deg, self.nacelle_deg)?,
+            rpm_select: rpm_select(&aircraft, self.rpm, self.nacelle_deg)?,
+            gear_down: u64::from(self.gear_down),
+            scas_on: u64::from(self.scas_on),
+            ..Target::default()
+        };
+        let mut world = target.world;
+        world.temperature_offset_k = self.isa_k;
+        if let Some(height_ft) = self.height_ft {
+            world = world.with_ground((self.altitude_ft - height_ft) * FOOT_M);
+        }
+        Ok((aircraft, Target { world, ..target }))
+    }
+
+    /// The table `[trim]` of a scenario that begins in this flight. It has a nacelle incidence, speed,
+    /// altitude, climb, flap, rotor speed and SCAS; the rest is the scenario's.
+    ///
+    /// # Errors
+    /// When nothing flies so.
+    pub fn start_toml(&self, aircraft: &Aircraft, by: &str) -> Result<String, Fault> {
+        self.within()?;
+        let detent = flap_detent(aircraft, self.flap_deg, self.nacelle_deg)?;
+        let rpm_select = rpm_select(aircraft, self.rpm, self.nacelle_deg)?;
+        Ok(format!(
+            "\n[trim] # by {by}\nmast_tilt_deg = {:?}\nairspeed_kt = {:?}\n\
+             altitude_ft = {:?}\nclimb_fpm = {:?}\nflap_detent = {detent}\n\
+             rpm_select = {rpm_select}\nscas_on = {}\n",
+            90.0 - self.nacelle_deg,
+            self.speed_kt,
+            self.altitude_ft,
+            self.climb_fpm,
+            u64::from(self.scas_on),
+        ))
+    }
+
+    /// Whether every number is one that is flown.
+    fn within(&self) -> Result<(), Fault> {
+        for Range { name, unit, least, greatest, of } in RANGES {
+            match of(self) {
+                Some(value) if !(least..=greatest).contains(&value) => {
+                    return Err(Fault::Number { name, value, least, greatest, unit });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn turn_radps(&self, airspeed_mps: f64) -> Result<f64, Fault> {
+        let Some(bank_deg) = self.bank_deg else { return Ok(self.turn_degps / DEG_PER_RAD) };
+        if airspeed_mps < 5.0 || bank_deg.abs() > 75.0 {
+            return Err(Fault::Bank);
+        }
+        Ok(GRAVITY_MPS2 * tan(bank_deg / DEG_PER_RAD) / airspeed_mps)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::string::ToString;
+
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_of_a_flight_is_refused_with_its_unit() {
+        for (condition, words) in [
+            (
+                Condition { speed_kt: f64::NAN, ..Condition::default() },
+                "speed_kt NaN: expected -60 to 400 kt",
+            ),
+            (
+                Condition { weight_lb: 1.0, ..Condition::default() },
+                "weight_lb 1: expected 2500 to 44000 lb",
+            ),
+            (
+                Condition { rpm: Some(f64::INFINITY), ..Condition::default() },
+                "rpm inf: expected 0 to 2000 rpm",
+            ),
+        ] {
+            let fault = condition.within().err().map(|fault| fault.to_string());
+            assert_eq!(fault.as_deref(), Some(words));
+        }
+    }
+}
