@@ -17,6 +17,11 @@ fn falling(turn: Vec3<engine::frames::Body>) -> (engine::Aircraft, State) {
     state.cockpit.collective_norm = 0.0;
     state.actuators.lever_norm = 0.0;
     state.plant.angular_rate_radps = turn;
+    // Nothing damps blades that swing in a vacuum, and swinging blades shake the airframe.
+    for flapping in [&mut state.plant.rotors.left.flapping, &mut state.plant.rotors.right.flapping]
+    {
+        (flapping.coning_rad, flapping.coning_radps) = (xv15.rotors.flapping.precone_rad, 0.0);
+    }
     state.rate = step(&xv15, &state, &calm()).0.rate;
     (xv15, state)
 }

@@ -224,6 +224,7 @@ pub fn in_vacuum(xv15: &mut Params) {
     // Blades that flap without air would trade energy with the body: they get next to no mass.
     xv15.rotors.flapping.blade_spring_n_m_per_rad *= 1e-6;
     xv15.rotors.flapping.blade_inertia_kg_m2 *= 1e-6;
+    xv15.rotors.polar_inertia_kg_m2 *= 1e-6;
     xv15.wing_pylon.area_m2 = 0.0;
     xv15.wing_pylon.interference_m2.y.fill(0.0);
     xv15.wing_pylon.platform_m2 = 0.0;
