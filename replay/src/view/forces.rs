@@ -196,7 +196,7 @@ impl Arrows {
     /// What does not change: colours, names.
     pub fn still(&self) -> impl AsComponents + use<> {
         Arrows3D::update_fields()
-            .with_radii([if self.m_per_unit == M_PER_N { 0.09 } else { 0.05 }])
+            .with_radii([if self.entity.ends_with("moments") { 0.05 } else { 0.09 }])
             .with_colors(self.each.iter().map(|(_, colour)| *colour))
             .with_labels(self.each.iter().map(|(name, _)| *name))
             .with_show_labels(false)

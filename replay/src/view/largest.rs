@@ -51,7 +51,7 @@ impl Largest {
 /// A number that may be of any size.
 fn told(number: f64) -> String {
     match number.abs() {
-        size if size >= 1e-3 && size < 1e6 => format!("{number:+.3}"),
+        size if (1e-3..1e6).contains(&size) => format!("{number:+.3}"),
         _ => format!("{number:+.2e}"),
     }
 }

@@ -190,7 +190,7 @@ pub const GRAPHS: &[Graph<Outputs>] = &[
         line("right pedal", VIOLET, |o| 1e3 * o.scas.pedal_right_m),
         line("trim, aft", WHITE, |o| 1e3 * o.scas.trim_aft_m),
     ]),
-    sides!("plots/nacelle", "Nacelle incidence, deg (90 helicopter)", |o| incidence_deg(o)),
+    sides!("plots/nacelle", "Nacelle incidence, deg (90 helicopter)", incidence_deg),
     Graph::new("plots/elevator", "Elevator, rudder, flap, deg", &[
         broad("elevator asked", GREY, |o| degrees(o.commands.elevator_rad)),
         line("elevator", ORANGE, |o| degrees(o.actuators.elevator_rad)),
