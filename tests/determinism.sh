@@ -11,7 +11,8 @@
 #        TILTROTOR_AARCH64=FILE                         with one that is there
 set -euo pipefail
 cd "$(dirname "$0")/.."
-headless=(--no-default-features)
+# With the tables, so that tests/export.sh finds its program built.
+headless=(--no-default-features --features parquet)
 whole=${1-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
