@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --package replay --no-default-features --example reflight -- FLIGHT.mcap...`
 //!
-//! It ends with 1 when a log is not exact. `tests/determinism.sh` builds it for the CPU it runs on.
+//! It ends with 1 when a log is not exact.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
