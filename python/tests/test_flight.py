@@ -172,7 +172,7 @@ def test_a_flight_that_was_broken_off_says_so(tmp_path, command, raised, words):
         flight.step(10)
         raise raised
     assert tiltrotor.verify(log)
-    said = command("log", "events", log)
+    said = command("log", "find", log)
     assert words in said.stdout, said
     assert "the hands are done" not in said.stdout
 
