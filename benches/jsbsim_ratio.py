@@ -49,6 +49,8 @@ def tick_us(hover):
 
 def main():
     hover, rounds = sys.argv[1], int(sys.argv[2])
+    if rounds < 1:
+        sys.exit(f"ROUNDS: expected 1 or more, got {rounds}")
     fdm = ah1s()
     frame_us(fdm)
     ours, theirs, ratios = [], [], []
@@ -58,7 +60,8 @@ def main():
         ours.append(tick)
         theirs.append(frame)
         ratios.append(tick / frame)
-    low, middle, high = statistics.quantiles(ratios, n=4)
+    middle = statistics.median(ratios)
+    low, _, high = statistics.quantiles(ratios, n=4) if rounds > 1 else (middle, middle, middle)
     print(f"JSBSim {jsbsim.__version__} ah1s  {statistics.median(theirs):6.2f} us a frame")
     print(f"XV-15              {statistics.median(ours):6.2f} us a tick")
     print(f"ratio              {middle:6.3f}  (half of {rounds} rounds within {low:.3f} to {high:.3f})")

@@ -51,6 +51,8 @@ def frame_us(model: str) -> float:
 
 def main() -> int:
     stepped, rounds = sys.argv[1], int(sys.argv[2])
+    if rounds < 1:
+        sys.exit(f"ROUNDS: expected 1 or more, got {rounds}")
     start = tiltrotor.Flight(start="hover-50ft")
     python_us(start)
     ours, natives, ratios = [], [], []
@@ -60,7 +62,8 @@ def main() -> int:
         ours.append(tick_us)
         natives.append(native)
         ratios.append(tick_us / native)
-    low, ratio, high = statistics.quantiles(ratios, n=4)
+    ratio = statistics.median(ratios)
+    low, _, high = statistics.quantiles(ratios, n=4) if rounds > 1 else (ratio, ratio, ratio)
     print(f"Rust, engine::step        {statistics.median(natives):7.2f} us a tick")
     print(f"Python, flight.step()     {statistics.median(ours):7.2f} us a tick")
     print(f"ratio                     {ratio:7.3f}  (half of {rounds} rounds within {low:.3f} to {high:.3f})")

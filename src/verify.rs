@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
-use replay::{Judgement, Options, Outcome, Verdict, verify};
+use replay::{Judgement, Options, Outcome, THREADS_MAX, Verdict, verify};
 
 use crate::report;
 use crate::status::Status;
@@ -184,7 +184,11 @@ pub fn run(args: &Args) -> Result<Status> {
         Some(shard) => shard.of(whole),
         None => whole,
     };
-    let jobs = args.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    let jobs = args
+        .jobs
+        .or_else(|| thread::available_parallelism().ok())
+        .map_or(1, NonZero::get)
+        .min(THREADS_MAX);
     // Of few logs, each is flown by several threads.
     let threads = (jobs / logs.len().max(1)).max(1);
     let jobs = jobs.min(logs.len()).max(1);

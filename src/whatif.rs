@@ -106,7 +106,7 @@ pub fn run(args: &Args) -> Result<Status> {
         &mut reader,
         &initial,
         &new,
-        |world| changes.apply(world),
+        |world| Ok(changes.apply(world)),
         |tick, state, outputs, _| apart.add(baseline.fly(tick), state, outputs),
     )
     .with_context(name)?;

@@ -3,6 +3,7 @@
 # Usage: tests/cdr.sh [TILTROTOR]   (a headless release build without one)
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source tests/venv.sh
 
 tiltrotor=${1:-}
 if [ -z "$tiltrotor" ]; then
@@ -12,8 +13,7 @@ fi
 
 venv=target/venv-cdr
 if [ ! -x "$venv/bin/python" ] || ! "$venv/bin/python" -c "import lz4, mcap_ros2, numpy, rosbags, zstandard"; then
-    python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet mcap==1.6.0 mcap-ros2-support==0.6.0 numpy==2.4.6 rosbags==0.11.9 \
+    make_venv "$venv" mcap==1.6.0 mcap-ros2-support==0.6.0 numpy==2.4.6 rosbags==0.11.9 \
         lz4==4.4.5 zstandard==0.25.0
 fi
 

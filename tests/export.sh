@@ -4,6 +4,7 @@
 # Usage: tests/export.sh [TILTROTOR]   (a headless release build with Parquet without one)
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source tests/venv.sh
 
 tiltrotor=${1:-}
 if [ -z "$tiltrotor" ]; then
@@ -13,8 +14,7 @@ fi
 
 venv=target/venv-export
 if [ ! -x "$venv/bin/python" ] || ! "$venv/bin/python" -c "import duckdb, lz4, mcap, polars, pyarrow"; then
-    python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet duckdb==2.0.0 mcap==1.6.0 lz4==4.4.5 polars==2.1.0 pyarrow==26.0.1
+    make_venv "$venv" duckdb==2.0.0 mcap==1.6.0 lz4==4.4.5 polars==2.1.0 pyarrow==26.0.1
 fi
 
 work=$(mktemp -d)

@@ -4,6 +4,7 @@
 # Usage: tests/linearize_grid.sh [TILTROTOR]   (a headless release build without one)
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source tests/venv.sh
 
 tiltrotor=${1:-}
 if [ -z "$tiltrotor" ]; then
@@ -14,8 +15,7 @@ fi
 # The environment of tests/cdr.sh.
 venv=target/venv-cdr
 if [ ! -x "$venv/bin/python" ] || ! "$venv/bin/python" -c "import mcap_ros2, numpy"; then
-    python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet mcap==1.6.0 mcap-ros2-support==0.6.0 numpy==2.4.6
+    make_venv "$venv" mcap==1.6.0 mcap-ros2-support==0.6.0 numpy==2.4.6
 fi
 
 "$venv/bin/python" tests/linearize_grid.py "$tiltrotor"

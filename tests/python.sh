@@ -5,6 +5,7 @@
 # Ends with 77 where there is no Python with venv and pip, or no network to get what it needs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source tests/venv.sh
 
 tiltrotor=${1:-}
 [ $# = 0 ] || shift
@@ -14,17 +15,9 @@ if [ -z "$tiltrotor" ]; then
 fi
 
 venv=target/venv-python
-if ! command -v python3 >/dev/null || ! python3 -m venv --help >/dev/null 2>&1; then
-    echo "skipped: no python3 with venv; \`apt-get install python3-venv\` brings it"
-    exit 77
-fi
-[ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 wanted=$(sha256sum python/requirements.txt)
 if [ "$(cat "$venv/installed" 2>/dev/null)" != "$wanted" ]; then
-    if ! "$venv/bin/pip" install --quiet --requirement python/requirements.txt; then
-        echo "skipped: pip cannot install python/requirements.txt; is there a network?"
-        exit 77
-    fi
+    make_venv "$venv" --requirement python/requirements.txt
     echo "$wanted" >"$venv/installed"
 fi
 

@@ -23,9 +23,8 @@ repository=$(cd "$(dirname "$0")/.." && pwd)
 venv=${CARGO_TARGET_DIR:-$repository/target}/rerun-$VERSION
 
 if [ ! -x "$venv/bin/rerun" ]; then
-    rm -rf "$venv"
-    python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet --disable-pip-version-check "rerun-sdk==$VERSION"
+    source "$repository/tests/venv.sh"
+    make_venv "$venv" "rerun-sdk==$VERSION"
 fi
 
 if ! ls /usr/share/vulkan/icd.d/lvp_icd*.json >/dev/null 2>&1; then

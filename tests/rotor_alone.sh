@@ -3,13 +3,11 @@
 # Usage: tests/rotor_alone.sh [TILTROTOR]   (a headless release build without one; PyPI once, else skipped with 77)
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source tests/venv.sh
 
 venv=target/venv-rotor
 if ! "$venv/bin/python" -c "import dynbem, numpy" 2>/dev/null; then
-    if ! { python3 -m venv "$venv" && "$venv/bin/pip" install --quiet dynbem==0.8.0 numpy==2.4.6; }; then
-        echo "$0: skipped: dynbem cannot be had from PyPI; python3 3.11 or later with venv and a network are needed once" >&2
-        exit 77
-    fi
+    make_venv "$venv" dynbem==0.8.0 numpy==2.4.6
 fi
 
 tiltrotor=${1:-}

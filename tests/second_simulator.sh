@@ -5,14 +5,11 @@
 # written into the folder PICTURES; PyPI once, else skipped with 77)
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source tests/venv.sh
 
 venv=target/venv-second
 if ! "$venv/bin/python" -c "import jsbsim, matplotlib, numpy" 2>/dev/null; then
-    if ! { python3 -m venv "$venv" &&
-        "$venv/bin/pip" install --quiet jsbsim==1.3.3 matplotlib==3.11.2 numpy==2.4.6; }; then
-        echo "$0: skipped: JSBSim cannot be had from PyPI; python3 3.11 or later with venv and a network are needed once" >&2
-        exit 77
-    fi
+    make_venv "$venv" jsbsim==1.3.3 matplotlib==3.11.2 numpy==2.4.6
 fi
 
 tiltrotor=${1:-}

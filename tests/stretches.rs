@@ -13,7 +13,7 @@ use common::{
 };
 use engine::inputs::DeviceEvent;
 use logs::records::{HARDWARE, INPUTS, InputsRecord, OUTPUTS, RESTART, STATE, TIMING};
-use replay::{Options, Outcome, Window, verify};
+use replay::{Options, Outcome, ReplayError, Window, verify, verify_while};
 
 /// Two seconds by the pilot model: eight stretches.
 fn flight() -> &'static Path {
@@ -37,7 +37,7 @@ fn said(log: &Path, threads: usize, window: Window) -> (Option<Outcome>, String)
 #[track_caller]
 fn same_for_all(log: &Path, window: Window) -> Result<Option<Outcome>, String> {
     let (outcome, one_pass) = said(log, 0, window);
-    for threads in [1, 2, 5] {
+    for threads in [1, 2, 5, usize::MAX] {
         let (_, by_threads) = said(log, threads, window);
         if by_threads != one_pass {
             return Err(format!("{}: {threads} threads\n{by_threads}\n{one_pass}", log.display()));
@@ -98,6 +98,20 @@ const CHANGES: [(&str, Outcome, Change); 14] = [
 fn diverged(log: &mut Forgery, tick: usize) {
     flip_state_bit(log, tick, "plant.velocity_mps.x");
     chain_anew(log);
+}
+
+#[test]
+fn verifying_can_be_left() {
+    for threads in [0, 1, 3] {
+        let options = Options { threads, ..Options::default() };
+        let mut asked = 0;
+        let left = verify_while(flight(), &options, |ticks| {
+            asked += 1;
+            if ticks < 200 { Ok(()) } else { Err(ReplayError::Refused("enough".into())) }
+        });
+        assert_eq!(left.expect_err("left").to_string(), "enough");
+        assert!((2..=200).contains(&asked), "{asked}");
+    }
 }
 
 #[test]

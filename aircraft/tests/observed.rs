@@ -1,7 +1,10 @@
 //! What is observed after a tick, computed once more by other formulas: rotation matrices out of the
 //! quaternion, the Earth in earth-centred axes, the atmosphere and the pitot tube by their printed
 //! equations, rates by differences. And every validity bit, set by what it is there for.
-#![allow(clippy::disallowed_methods, reason = "other formulas, by other functions than the engine's")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "other formulas, by other functions than the engine's"
+)]
 
 mod flying;
 

@@ -1,5 +1,8 @@
 //! Small parts of the model by hand, from the numbers that the sources print.
-#![allow(clippy::disallowed_methods, reason = "other formulas, by other functions than the engine's")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "other formulas, by other functions than the engine's"
+)]
 
 mod flying;
 

@@ -10,11 +10,11 @@ use engine::inputs::{Failures, InputLevel, World};
 use engine::math::{cos, sin};
 use engine::units::{mps_of_knots, radians};
 use engine::{State, observe};
-use logs::{Identity, Setup, cdr};
+use logs::{FlightReader, Identity, Setup, cdr};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use recorder::{Moment, Movement, Stepped};
-use replay::{OPEN, Source, Window, names_parent};
+use recorder::{End, Moment, Movement, Stepped};
+use replay::{OPEN, ReplayError, Source, Window, names_parent};
 
 use crate::aircraft::Aircraft;
 use crate::commands;
@@ -53,6 +53,12 @@ fn start_position(name: &str) -> PyResult<&'static str> {
         let there = files::STARTS.map(|(name, ..)| name).join(", ");
         refused(format!("start: no position is called {name}; there are {there}"))
     })
+}
+
+/// Brings a log to a tick; to its beginning without one.
+fn stand_at(reader: &mut FlightReader, tick: Option<u64>) -> Result<(), ReplayError> {
+    let window = Window { from_tick: tick, until_tick: None, clamped: false };
+    Ok(window.apply(reader)?)
 }
 
 impl Flight {
@@ -102,15 +108,23 @@ impl Flight {
         let read = wait(py, move |_| {
             let source = Source::proven(&path, "not flown on")?;
             let mut reader = logs::open(&path, OPEN)?;
-            let window = Window { from_tick: tick, until_tick: None, clamped: false };
-            window.apply(&mut reader)?;
+            let first_tick = reader.initial.tick;
+            stand_at(&mut reader, tick)?;
             let state = reader.initial;
             let origin = source.marks(names_parent(identity(), &path, &reader, "python"));
             let setup = reader.setup.clone();
-            // The world of the tick that begins there; after the last one, that of the start.
-            let flown = replay::flown(&setup)?;
-            let world = reader.next_tick()?.map_or(flown.world, |tick| tick.inputs.world);
-            Ok::<_, replay::ReplayError>((state, world, setup, origin))
+            // The world of the tick that begins there; after the last one, that of the last one.
+            let mut world = reader.next_tick()?.map(|tick| tick.inputs.world);
+            if world.is_none() && state.tick > first_tick {
+                let mut before = logs::open(&path, OPEN)?;
+                stand_at(&mut before, Some(state.tick - 1))?;
+                world = before.next_tick()?.map(|tick| tick.inputs.world);
+            }
+            let world = world.map_or_else(|| replay::flown(&setup).map(|flown| flown.world), Ok)?;
+            // Who moved the aircraft, and whether it was paused, is not the weather's.
+            let World { paused, input_level, commands, .. } = World::default();
+            let world = World { paused, input_level, commands, ..world };
+            Ok::<_, ReplayError>((state, world, setup, origin))
         })?;
         let (state, world, mut setup, origin) = read.map_err(|error| told_of(&name, error))?;
         // Whatever flew it: from here on, a program does.
@@ -287,8 +301,15 @@ impl Flight {
 
     /// Ends the log; the digest of the whole flight, or `None` when there was no log.
     fn close(&mut self) -> PyResult<Option<String>> {
-        let closed = self.flown().close().map_err(told)?;
+        let closed = self.flown().close(End::Done).map_err(told)?;
         Ok(closed.map(|closed| format!("{:016x}", closed.digest)))
+    }
+
+    /// Ends the log of a flight that something else broke off: Ctrl-C, or what went wrong around it.
+    fn broken_off(&mut self, by_signal: bool) -> PyResult<()> {
+        let end = End::Stopped(by_signal.then_some("SIGINT"));
+        self.flown().close(end).map_err(told)?;
+        Ok(())
     }
 
     /// What another process goes on from: the three texts, and the moment.

@@ -12,14 +12,14 @@ use replay::changes::Changes;
 use replay::identify::{Options, Point, Record, Signal, record};
 use replay::{
     NewLog, OPEN, Outcome, Reflight, ReflyOptions, ReplayError, Source, Window, names_parent,
-    parent, proven, rewrite_in,
+    parent, proven_while, rewrite_in,
 };
 
 use crate::errors::{refused, told_of};
 use crate::numbers::{Fields, body, of_struct};
 use crate::provenance::identity;
 use crate::verdict::Verdict;
-use crate::waiting::wait;
+use crate::waiting::{wait, wanted_still};
 
 /// State or outputs of every tick of a log, reflown: what a log holds of the outputs is one tick in ten.
 /// The numbers end to end, and the first tick that is not the recorded one.
@@ -108,6 +108,7 @@ fn what_if(
 ) -> Result<Verdict, Box<dyn std::error::Error + Send + Sync>> {
     let log = wanted.log.as_path();
     let source = Source::proven(log, "not flown")?;
+    wanted_still(stop)?;
     let mut reader = logs::open(log, OPEN)?;
     let mut setup = reader.setup.clone();
     let mut said = Vec::new();
@@ -135,12 +136,13 @@ fn what_if(
         devices: &source.devices,
         picture_of: Some(Path::new(log)),
     };
-    rewrite_in(&mut reader, &initial, &new, |world| changes.apply(world), |_, _, _, _| ())?;
-    if stop.load(Ordering::Relaxed) {
-        return Err("left".into());
-    }
+    let change = |world| wanted_still(stop).map(|()| changes.apply(world));
+    rewrite_in(&mut reader, &initial, &new, change, |_, _, _, _| ())?;
     let sound = [Outcome::Exact, Outcome::NeverClosed];
-    let judgement = proven(output.unfinished(), &sound)?;
+    let judgement = proven_while(output.unfinished(), &sound, |_| wanted_still(stop))?;
+    // What takes long of finishing, before the last look for Ctrl-C.
+    output.file()?.sync_all()?;
+    wanted_still(stop)?;
     output.finish()?;
     Ok(Verdict::of_judgement(&judgement))
 }

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use logs::LogError;
 use pyo3::prelude::*;
-use replay::{Judgement, Options, Outcome, ReplayError, Window};
+use replay::{Judgement, Options, Outcome, ReplayError, Window, verify_while};
 
-use crate::waiting::wait;
+use crate::waiting::{wait, wanted_still};
 
 /// What a log is.
 #[pyclass(module = "tiltrotor._native", frozen, get_all, eq)]
@@ -157,7 +157,7 @@ pub fn verify(
     let mut options = Options { across_versions, ..Options::default() };
     options.threads = threads.unwrap_or(options.threads);
     options.window = Window { from_tick, until_tick, clamped: false };
-    let found = wait(py, move |_| replay::verify(&path, &options, |_| ()))?;
+    let found = wait(py, move |stop| verify_while(&path, &options, |_| wanted_still(stop)))?;
     Ok(found.map_or_else(|error| Verdict::unusable(refusal(&error)), Verdict::from))
 }
 

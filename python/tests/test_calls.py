@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import concurrent.futures
 import os
+import re
 import signal
 import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -17,28 +19,70 @@ from conftest import ROOT
 import tiltrotor
 
 CALLS = {
-    "step": lambda log: tiltrotor.Flight(start="hover-50ft").step(100_000_000),
-    "read": lambda log: [tiltrotor.read(log, "state") for _ in range(10_000)],
-    "verify": lambda log: [tiltrotor.verify(log) for _ in range(10_000)],
-    "trim": lambda log: [tiltrotor.Aircraft().trim() for _ in range(100_000)],
+    "step": lambda log, flight: flight.step(100_000_000),
+    "read": lambda log, flight: [tiltrotor.read(log, "state") for _ in range(10_000)],
+    "verify": lambda log, flight: [tiltrotor.verify(log) for _ in range(10_000)],
+    "trim": lambda log, flight: [flight.aircraft.trim() for _ in range(100_000)],
 }
 
+posix = pytest.mark.skipif(os.name != "posix", reason="sends itself a signal")
 
-@pytest.mark.skipif(os.name != "posix", reason="sends itself a signal")
-@pytest.mark.parametrize("call", CALLS)
-def test_ctrl_c_is_answered_in_a_fifth_of_a_second(hover, call):
+
+def _answered_s(call: Callable[[], object], after_s: float = 0.5) -> float:
+    """How long Ctrl-C takes to end a call in which it is pressed."""
     sent: list[float] = []
 
     def press() -> None:
         sent.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
 
-    timer = threading.Timer(0.5, press)
+    timer = threading.Timer(after_s, press)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        CALLS[call](hover)
-    took_s = time.monotonic() - sent[0]
+        call()
+    return time.monotonic() - sent[0]
+
+
+@posix
+@pytest.mark.parametrize("call", CALLS)
+def test_ctrl_c_is_answered_in_a_fifth_of_a_second(hover, call):
+    flight = tiltrotor.Flight(start="hover-50ft")
+    # The best of three: others are at work on the machine, too.
+    took_s = min(_answered_s(lambda: CALLS[call](hover, flight)) for _ in range(3))
     assert took_s < 0.2, f"{took_s:.3f} s"
+
+
+@posix
+def test_of_a_what_if_that_is_left_nothing_appears_later(tmp_path):
+    """Neither the log nor the hidden file that it is written into; the second attempt has nothing in its way."""
+    log, out = tmp_path / "long.mcap", tmp_path / "made" / "what-if.mcap"
+    out.parent.mkdir()
+    with tiltrotor.Flight(start="hover-50ft") as flight:
+        flight.record(log)
+        flight.step(10_000)
+
+    def windy() -> tiltrotor.Verdict:
+        return tiltrotor.whatif(log, out, world={"wind_mps.x": 1.0}, force=True)
+
+    def windy_and_wait() -> None:
+        windy()
+        time.sleep(60)
+
+    begun = time.monotonic()
+    assert windy()
+    whole_s = time.monotonic() - begun
+    out.unlink()
+    for part in (0.2, 0.5, 0.8):
+        _answered_s(windy_and_wait, part * whole_s)
+        if out.exists():
+            continue  # It was faster this time, and was there before Ctrl-C.
+        time.sleep(whole_s)
+        assert list(out.parent.iterdir()) == [], part
+    assert windy()
+
+
+def test_more_threads_than_a_system_has_are_as_many_as_it_can_use(hover):
+    assert tiltrotor.verify(hover, threads=10**9) == tiltrotor.verify(hover, threads=1)
 
 
 def test_other_threads_run_while_it_flies():
@@ -125,6 +169,15 @@ def test_what_the_stubs_say_is_there():
         text=True,
         check=False,
     )
+    # It says how it went: silence would be a checker that did not run.
+    assert re.search(r"^(Found \d+ errors?|Success: no issues found) ", said.stdout, re.MULTILINE), said
     missing = [line for line in said.stdout.splitlines() if "is not present at runtime" in line]
     # Names of types exist for the stubs only.
     assert [line for line in missing if "Kept" not in line and "Fields" not in line] == []
+
+
+def test_every_source_file_is_a_module():
+    """A file that lib.rs does not name is built into nothing, and nobody tests it."""
+    sources = ROOT / "python/src"
+    named = set(re.findall(r"^mod (\w+);", (sources / "lib.rs").read_text(), re.MULTILINE))
+    assert named == {path.stem for path in sources.rglob("*.rs")} - {"lib"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 import re
 from pathlib import Path
@@ -96,6 +97,84 @@ def test_a_flight_goes_on_from_a_tick_of_a_log(tmp_path, hover):
     verdict = tiltrotor.verify(tmp_path / "on.mcap")
     assert (bool(verdict), verdict.start_tick, verdict.last_tick) == (True, 500, 600)
     assert tiltrotor.facts(tmp_path / "on.mcap")["parent"] == hover.name
+
+
+def _answers(flight: tiltrotor.Flight) -> bool:
+    """Whether the stick moves the aircraft's controls."""
+    other = flight.copy()
+    other.set(stick_aft=0.6)
+    for each in (flight, other):
+        each.step(50)
+    return bool(flight.outputs["commands.elevator_rad"] != other.outputs["commands.elevator_rad"])
+
+
+def test_who_goes_on_from_a_log_has_the_controls(tmp_path):
+    """Whoever commanded the actuators in the log, at whatever tick; weather and failures stay."""
+    log = tmp_path / "outside.mcap"
+    with tiltrotor.Flight(start="hover-50ft") as flight:
+        flight.record(log)
+        flight.step(50)
+        flight.wind(250.0, 12.0)
+        flight.fail("scas_yaw")
+        flight.drive_actuators({"elevator_rad": 0.1})
+        flight.step(50)
+    for tick in (20, 70, 100):
+        flight = tiltrotor.Flight.from_log(log, tick)
+        flight.record(tmp_path / f"on-{tick}.mcap")
+        assert _answers(flight), tick
+        flight.close()
+        world = tiltrotor.read(tmp_path / f"on-{tick}.mcap", "inputs")[0]
+        assert world["world.input_level"] == world["world.paused"] == 0
+        assert (world["world.wind_mps.x"] != 0.0) == (world["world.failures"] != 0) == (tick >= 50), tick
+
+
+def test_a_paused_log_goes_on(tmp_path, command):
+    (tmp_path / "paused.toml").write_text("[[event]]\nat_s = 0.2\npause = true\n")
+    log = tmp_path / "paused.mcap"
+    said = command(
+        *("fly", "--script", tmp_path / "paused.toml", "--fast", "--no-flightgear"),
+        *("--start", "hover-50ft", "--duration", 1, "--out", log),
+    )
+    assert said.returncode == 0, said.stderr
+    assert tiltrotor.read(log, "inputs")["world.paused"][-1] == 1
+    for tick in (100, 250):
+        assert _answers(tiltrotor.Flight.from_log(log, tick)), tick
+
+
+@pytest.mark.skipif(os.name != "posix", reason="files have no limits elsewhere")
+def test_a_log_that_cannot_be_written_stays_never_closed(tmp_path):
+    """There is room again later: what lacks ticks must not look whole then."""
+    import resource
+
+    log = tmp_path / "full.mcap"
+    flight = tiltrotor.Flight(start="hover-50ft")
+    flight.record(log)
+    flight.step(1000)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (log.stat().st_size + 1000, before[1]))
+    try:
+        with pytest.raises(tiltrotor.TiltrotorError):
+            flight.step(5000)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    flight.step(100)
+    assert flight.close() is None
+    verdict = tiltrotor.verify(log)
+    assert (bool(verdict), verdict.diverged_tick) == (False, None)
+    assert verdict.outcome in ("never_closed", "damaged"), verdict.report
+
+
+@pytest.mark.parametrize(("raised", "words"), [(ValueError, "ended by the crew"), (KeyboardInterrupt, "SIGINT")])
+def test_a_flight_that_was_broken_off_says_so(tmp_path, command, raised, words):
+    log = tmp_path / "flight.mcap"
+    with pytest.raises(raised), tiltrotor.Flight(start="hover-50ft") as flight:
+        flight.record(log)
+        flight.step(10)
+        raise raised
+    assert tiltrotor.verify(log)
+    said = command("log", "find", log)
+    assert words in said.stdout, said
+    assert "the hands are done" not in said.stdout
 
 
 def test_the_log_says_which_program_flew(hover):

@@ -39,6 +39,21 @@ def test_an_episode_is_a_log_that_reflies(tmp_path, task):
     assert len(list(tmp_path.glob("*.mcap"))) == 2
 
 
+def test_no_log_takes_the_place_of_another(tmp_path):
+    """A second run, or a second environment with the same folder, goes on with the numbers."""
+    envs = [gymnasium.make(_id("hover"), record=tmp_path) for _ in range(2)]
+    logs = []
+    for env in (*envs, gymnasium.make(_id("hover"), record=tmp_path)):
+        for _ in range(2):
+            _, info = env.reset(seed=1)
+            env.step(np.zeros(5, np.float32))
+            logs.append(info["log"])
+    for env in envs:
+        env.close()
+    assert len(set(logs)) == len(list(tmp_path.iterdir())) == 6
+    assert all(tiltrotor.verify(log) for log in logs[:4])
+
+
 def _sums(task: str, seed: int) -> list[float]:
     env = gymnasium.make(_id(task))
     observation, _ = env.reset(seed=seed)

@@ -115,10 +115,12 @@ def test_a_what_if_is_the_commands(tmp_path, command, judged, hover):
         *("--world", "gust_s=1.0", "--from", "100t"),
     )
     assert said.returncode == 0, said.stderr
-    world = {"gust_mps.z": -5.0, "gust_s": 1.0}
-    made = tiltrotor.whatif(hover, by_python, world=world, fail=["governor"], from_tick=100)
-    assert made
-    assert judged(by_python)["digest"] == judged(by_command)["digest"]
+    # A number of any kind: numpy's say of themselves what they are.
+    for five in (-5, -5.0, np.float64(-5.0), np.linspace(-5.0, 5.0, 3)[0], np.float32(-5.0), np.int64(-5)):
+        world = {"gust_mps.z": five, "gust_s": np.float64(1.0)}
+        made = tiltrotor.whatif(hover, by_python, world=world, fail=["governor"], from_tick=100, force=True)
+        assert made
+        assert judged(by_python)["digest"] == judged(by_command)["digest"]
 
 
 def test_reflown_outputs_are_those_recorded_where_some_are(hover):

@@ -200,7 +200,8 @@ impl Stepped {
     /// Flies a tick.
     ///
     /// # Errors
-    /// When the log cannot be written any further; the tick is flown all the same.
+    /// When the log cannot be written any further: it ends there, never closed. The tick is flown all the
+    /// same, and those after it without a log.
     pub fn step(&mut self) -> Result<(), LogError> {
         let tick = self.state.tick;
         self.take_movements(tick);
@@ -208,8 +209,14 @@ impl Stepped {
             self.log.as_mut().map_or(Ok(()), |log| log.inputs(tick, &self.events, self.world));
         let inputs = Inputs { events: &self.events, world: self.world };
         (self.state, self.outputs) = step(&self.aircraft, &self.state, &inputs);
-        recorded?;
-        self.log.as_mut().map_or(Ok(()), |log| log.state(&self.state, &self.outputs))
+        let recorded = recorded.and_then(|()| {
+            self.log.as_mut().map_or(Ok(()), |log| log.state(&self.state, &self.outputs))
+        });
+        if recorded.is_err() {
+            // One that lacks a tick must not be closed later, when there is room again.
+            self.log = None;
+        }
+        recorded
     }
 
     /// What was moved since the last step, as raw events.
@@ -237,13 +244,12 @@ impl Stepped {
         }
     }
 
-    /// Closes the log; `None` when there was none.
+    /// Closes the log, as ended by whom; `None` when there was none.
     ///
     /// # Errors
     /// When it cannot be closed.
-    pub fn close(&mut self) -> Result<Option<Closed>, LogError> {
+    pub fn close(&mut self, end: End) -> Result<Option<Closed>, LogError> {
         let Some(Log { mut writer, output, .. }) = self.log.take() else { return Ok(None) };
-        let end = End::Done;
         writer.happened(
             self.state.tick,
             Happening::Landed,
@@ -316,8 +322,8 @@ mod tests {
             }
             stepped.step().unwrap();
         }
-        let closed = stepped.close().unwrap().unwrap();
-        assert!(stepped.close().unwrap().is_none(), "closed once");
+        let closed = stepped.close(End::Done).unwrap().unwrap();
+        assert!(stepped.close(End::Done).unwrap().is_none(), "closed once");
 
         let text = "[[event]]\nat_s = 0.5\naxis = { collective = 0.7, stick_aft = 0.1 }\npress = [\"marker\"]\n\
                     [[event]]\nat_s = 1.0\nfail = [\"scas_yaw\"]\n";
@@ -342,6 +348,42 @@ mod tests {
         let flown = crate::fly(flight, &Progress::default()).unwrap();
         assert_eq!(closed.digest, flown.log.unwrap().digest);
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// What lacks a tick is not closed later, as if it were whole.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_log_that_cannot_be_written_is_given_up_and_the_flight_goes_on() {
+        use std::io::Read;
+        use std::os::fd::AsRawFd;
+        use std::sync::atomic::{AtomicBool, Ordering};
+
+        let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap();
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap().with_cockpit(map);
+        let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
+        let mut flown = Stepped::begin(Arc::new(xv15), setup("map"), &start).unwrap();
+        let mut alone = flown.fork();
+        // A pipe whose reader leaves once the flight is under way.
+        let (mut reader, writer) = std::io::pipe().unwrap();
+        let path = format!("/proc/self/fd/{}", writer.as_raw_fd());
+        let leave = &AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(move || {
+                let mut read = [0; 4096];
+                while !leave.load(Ordering::Relaxed) && reader.read(&mut read).unwrap() > 0 {}
+            });
+            flown.record(Path::new(&path), true, Identity::new(), "").unwrap();
+            drop(writer);
+            leave.store(true, Ordering::Relaxed);
+            assert!((0..5000).any(|_| flown.step().is_err()), "nothing refused");
+        });
+        assert!(!flown.is_recording());
+        assert!(flown.close(End::Done).unwrap().is_none());
+        (0..10).for_each(|_| flown.step().unwrap());
+        while alone.state.tick < flown.state.tick {
+            alone.step().unwrap();
+        }
+        assert_eq!(alone.state, flown.state);
     }
 
     #[test]

@@ -33,7 +33,7 @@ pub use diff::{
 };
 pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
 pub use judgement::{End, Facts, Judgement, Outcome, judge};
-pub use made::proven;
+pub use made::{proven, proven_while};
 pub use outputs::OutputsDifference;
 pub use playback::Playback;
 pub use refly::{OPEN, Reflight, Reflown, ReflyOptions, ReplayError, Window, flown};
@@ -42,5 +42,5 @@ pub use source::Source;
 pub use stage::Stage;
 pub use summary::{At, Gathered, Summary, Touchdown, summary};
 pub use ticks::Irregular;
-pub use verify::{Options, Verdict, verify};
+pub use verify::{Options, THREADS_MAX, Verdict, verify, verify_while};
 pub use versions::Versions;

@@ -92,18 +92,18 @@ pub fn rewrite(
     new: &NewLog<'_>,
     watch: impl FnMut(&Tick, &State, &Outputs, &FlightReader),
 ) -> Result<Rewritten, ReplayError> {
-    rewrite_in(reader, initial, new, |world| world, watch)
+    rewrite_in(reader, initial, new, Ok, watch)
 }
 
-/// The same in another world: `change` makes that of each tick of the recorded one.
+/// The same in another world: `change` makes that of each tick of the recorded one, or refuses to go on.
 ///
 /// # Errors
-/// As for [`rewrite`].
+/// As for [`rewrite`], and what `change` says.
 pub fn rewrite_in(
     reader: &mut FlightReader,
     initial: &State,
     new: &NewLog<'_>,
-    change: impl Fn(World) -> World,
+    change: impl Fn(World) -> Result<World, ReplayError>,
     mut watch: impl FnMut(&Tick, &State, &Outputs, &FlightReader),
 ) -> Result<Rewritten, ReplayError> {
     let flown = read(new.setup)?;
@@ -138,7 +138,7 @@ pub fn rewrite_in(
                 writer.event(event)?;
                 narrator.event(&mut writer, event)?;
             }
-            let inputs = InputsRecord { world: change(tick.inputs.world), ..tick.inputs };
+            let inputs = InputsRecord { world: change(tick.inputs.world)?, ..tick.inputs };
             writer.inputs(&inputs)?;
             narrator.inputs(&mut writer, &inputs)?;
             crew_said(reader, &mut writer, new.timing, &mut touchdown_ticks)?;

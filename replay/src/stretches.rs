@@ -119,7 +119,7 @@ pub(crate) fn fly(
     flight: &mut Reflight,
     threads: usize,
     window: &Window,
-    progress: &mut dyn FnMut(u64),
+    progress: &mut dyn FnMut(u64) -> Result<(), ReplayError>,
 ) -> Result<Passed, ReplayError> {
     let facts = Box::new(Facts::of_reflight(flight));
     let outputs_ticks = flight.outputs_check.every_ticks;
@@ -130,7 +130,7 @@ pub(crate) fn fly(
     let (from, Reflight { reader, aircraft, outputs_check, .. }) = (flight.state, &mut *flight);
     reader.states_as_bytes = true;
     let aircraft = &*aircraft;
-    let mut reading = Reading {
+    let reading = Reading {
         reader,
         aircraft,
         outputs_ticks,
@@ -145,18 +145,28 @@ pub(crate) fn fly(
         proven: 0,
         facts,
     };
-    let stopped = thread::scope(|scope| {
+    let (stopped, proven, mut facts) = thread::scope(|scope| {
+        // What ends here, by a panic too, lets go of the channel: who waits for more goes home.
+        let mut reading = reading;
+        let mut crew = 0;
         for _ in 0..others {
             let (waiting, back) = (&waiting, back.clone());
-            scope.spawn(move || work(aircraft, outputs_ticks, waiting, &back));
+            let work = move || work(aircraft, outputs_ticks, waiting, &back);
+            // A system that has no more threads: those that there are fly it.
+            if thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                break;
+            }
+            crew += 1;
         }
         drop(back);
-        let stopped = reading.run(from, progress);
-        // Who waits for more goes home.
-        reading.to_fly = sync_channel(0).0;
-        stopped
+        if crew == 0 {
+            // Nobody takes anything from the channel: who reads flies.
+            reading.to_fly = sync_channel(0).0;
+        }
+        let stopped = reading.run(from, progress)?;
+        let Reading { proven, facts, .. } = reading;
+        Ok::<_, ReplayError>((stopped, proven, facts))
     })?;
-    let Reading { proven, mut facts, .. } = reading;
     let Some(stopped) = stopped else { return Ok(Passed::Differs(proven)) };
     facts.end_of_reflight(flight, stopped, window);
     Ok(Passed::Same(facts))
@@ -207,7 +217,7 @@ impl Reading<'_> {
     fn run(
         &mut self,
         mut from: State,
-        progress: &mut dyn FnMut(u64),
+        progress: &mut dyn FnMut(u64) -> Result<(), ReplayError>,
     ) -> Result<Option<Option<String>>, ReplayError> {
         let mut stopped = None;
         while stopped.is_none() {
@@ -219,7 +229,7 @@ impl Reading<'_> {
             from = stretch.to()?;
             self.handed_out += 1;
             self.hand_out(stretch)?;
-            progress(self.facts.ticks);
+            progress(self.facts.ticks)?;
             if !self.settle(self.handed_out.saturating_sub(AHEAD as u64))? {
                 return Ok(None);
             }

@@ -12,6 +12,9 @@ use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
 use crate::stretches::{self, Passed};
 use crate::versions::Versions;
 
+/// Threads at most, whatever is asked for: systems refuse some thousands, and no machine of today gains by more.
+pub const THREADS_MAX: usize = 256;
+
 /// How to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -22,7 +25,7 @@ pub struct Options {
     /// Fly logs of other versions of the flight model as well, as a comparison.
     pub across_versions: bool,
     /// Threads that fly, the one that reads included. What comes out is the same for any number; 0 flies
-    /// in one pass, as after a difference.
+    /// in one pass, as after a difference. More than [`THREADS_MAX`] are that many.
     pub threads: usize,
 }
 
@@ -59,6 +62,22 @@ pub fn verify(
     options: &Options,
     mut progress: impl FnMut(u64),
 ) -> Result<Verdict, ReplayError> {
+    verify_while(path, options, |ticks| {
+        progress(ticks);
+        Ok(())
+    })
+}
+
+/// The same, until `progress` refuses to go on.
+///
+/// # Errors
+/// As for [`verify`], and what `progress` says.
+pub fn verify_while(
+    path: &Path,
+    options: &Options,
+    mut progress: impl FnMut(u64) -> Result<(), ReplayError>,
+) -> Result<Verdict, ReplayError> {
+    let options = &Options { threads: options.threads.min(THREADS_MAX), ..*options };
     let open = || -> Result<Reflight, ReplayError> {
         let Options { window, across_versions, .. } = *options;
         let mut flight = Reflight::open(path, &ReflyOptions { window, across_versions })?;
@@ -95,7 +114,7 @@ pub fn verify(
 fn one_pass(
     mut flight: Reflight,
     options: &Options,
-    mut progress: impl FnMut(u64),
+    mut progress: impl FnMut(u64) -> Result<(), ReplayError>,
 ) -> Result<Verdict, ReplayError> {
     let mut facts = Facts::of_reflight(&flight);
     let mut diagnosis = Diagnosis::of(&flight)?;
@@ -113,7 +132,7 @@ fn one_pass(
         facts.add(&flight.reader.tick, same);
         diagnosis.add(facts.last_tick(), &mut flight, same)?;
         flight.reader.forget();
-        progress(facts.ticks);
+        progress(facts.ticks)?;
     };
     diagnosis.blocks(&flight.reader.outputs)?;
     let divergence = diagnosis.divergence;

@@ -55,7 +55,8 @@ class Flight:
     def from_log(cls, path: str | PathLike[str], tick: int | None = None) -> Flight:
         """Goes on from a tick of a log (its first one without), by your hands.
 
-        Its own log, if it is recorded, names that one.
+        Weather and failures are those of the log; pause and commands to the actuators are not taken over. A log that is
+        recorded before the first step names that one as its parent; one begun later, or of a pickled flight, does not.
         """
         return cls._over(_native.Flight.from_log(fspath(path), tick))
 
@@ -135,7 +136,11 @@ class Flight:
         self._held.drive_actuators(None)
 
     def step(self, ticks: int = 1) -> None:
-        """Flies so many ticks of 4 ms. Ctrl-C is answered within some ten milliseconds."""
+        """Flies so many ticks of 4 ms. Ctrl-C is answered within some ten milliseconds.
+
+        Raises TiltrotorError when the log cannot be written any further: it ends there, never closed, and the flight
+        goes on without one.
+        """
         self._held.step(ticks)
 
     def fly(self, table: Iterable[Mapping[str, float]]) -> None:
@@ -174,8 +179,11 @@ class Flight:
     def __enter__(self) -> Flight:
         return self
 
-    def __exit__(self, *_: object) -> None:
-        self.close()
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is None:
+            self.close()
+        else:
+            self._held.broken_off(issubclass(kind, KeyboardInterrupt))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """All but the log: the copy goes on to the same bits, in whatever process."""

@@ -1,4 +1,4 @@
-"""Gymnasium environments: hover, conversion and landing of the XV-15 (``pip install tiltrotor[gym]``).
+"""Gymnasium environments: hover, conversion and landing of the XV-15; docs/python.md says how they are installed.
 
 Importing this module registers ``tiltrotor/Hover-v0``, ``tiltrotor/Conversion-v0`` and ``tiltrotor/Landing-v0``.
 
@@ -7,7 +7,7 @@ Importing this module registers ``tiltrotor/Hover-v0``, ``tiltrotor/Conversion-v
 >>> observation, info = env.reset(seed=1)
 
 Agents fly with the grips, through the flight control computer with its SCAS, 25 times a second. With ``record`` every
-episode is a flight log that reflies bit for bit.
+episode is a flight log that reflies bit for bit; logs that are there stay, the numbers of new ones go on.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from ._native import TiltrotorError
 from .aircraft import Aircraft, Condition
 from .flight import Flight
 
@@ -72,7 +73,7 @@ class Task(NamedTuple):
     length_s: float
     """After which the episode ends, s."""
     wind_kt: float
-    """The steadiest wind that an episode may have, from anywhere, kt."""
+    """The strongest steady wind that an episode may have, from anywhere, kt."""
 
 
 TASKS: dict[str, Task] = {
@@ -130,13 +131,9 @@ class XV15Env(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         super().reset(seed=seed)
         self._close()
         flight = self._flight = self._start.copy()
-        self._episode += 1
         self._log: str | None = None
         if self._record is not None:
-            self._record.mkdir(parents=True, exist_ok=True)
-            log = self._record / f"{self.task}-{self._episode:06}.mcap"
-            flight.record(log, force=True)
-            self._log = str(log)
+            self._log = str(self._recorded(flight, self._record))
         state, outputs = flight.state, flight.outputs
         self._from = [float(outputs[f"position_m.{axis}"]) for axis in "xyz"]
         self._heading_rad = float(outputs["euler.heading_rad"])
@@ -176,6 +173,23 @@ class XV15Env(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         if self._flight is not None:
             self._flight.close()
             self._flight = None
+
+    def _recorded(self, flight: Flight, folder: Path) -> Path:
+        """Records under the next number that nobody has: neither an earlier run nor an environment beside this one."""
+        folder.mkdir(parents=True, exist_ok=True)
+        while True:
+            self._episode += 1
+            log = folder / f"{self.task}-{self._episode:06}.mcap"
+            if log.exists():
+                continue
+            try:
+                flight.record(log)
+            except TiltrotorError:
+                # Somebody else took the name in between, or nothing can be recorded there.
+                if not log.exists():
+                    raise
+            else:
+                return log
 
     def _positions(self, wanted: dict[str, float]) -> dict[str, float]:
         positions = {}

@@ -141,7 +141,7 @@ def whatif(
         fspath(log),
         fspath(out),
         [(key, str(value)) for key, value in (set or {}).items()],
-        [f"{key}={value!r}" for key, value in (world or {}).items()],
+        [f"{key}={float(value)!r}" for key, value in (world or {}).items()],
         list(fail),
         list(mend),
         from_tick,
