@@ -101,7 +101,9 @@ impl Status {
             Differs => "diverged or altered, or two logs differ",
             Unusable => "unusable, damaged, or the command could not be carried out",
             NeverClosed => "exact as far as it goes, but never closed, or recovered",
-            CutShort => "flown, but the log could not be written to its end, or a pilot model gave up",
+            CutShort => {
+                "flown, but the log could not be written to its end, or a pilot model gave up"
+            }
             NotConverged => "no steady flight, or not converged",
             Compared => "compared across versions",
         }

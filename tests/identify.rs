@@ -113,8 +113,20 @@ fn a_flight_without_a_sweep_is_refused_in_words() {
     };
     asked(&["--input", "stick_aft", "--low", "0.3"])
         .says("the record is too short: 12 s, and 0.30 rad/s takes 251 s");
-    asked(&["--input", "stick_right", "--low", "7"])
-        .says("the input is not swept between 7.00 and 12.00 rad/s");
+    asked(&["--input", "stick_right", "--low", "7"]).says("the input does not move");
     asked(&["--input", "throttle"]).says("`throttle` is no signal: there are stick_aft");
+
+    // A stick that goes slowly to one side and back moves, but not seven times a second.
+    let (script, slow) = (place.join("slow.toml"), place.join("slow.mcap"));
+    let to = |at_s: f64, norm: f64| {
+        format!("[[event]]\nat_s = {at_s:.1}\nover_s = 5.0\naxis = {{ stick_right = {norm} }}\n")
+    };
+    fs::write(&script, to(1.0, 0.1) + &to(6.0, -0.1)).expect("a script");
+    let fly = ["fly", "--script", text(&script), "--fast", "--duration", "12"];
+    tiltrotor(&[&fly[..], &["--no-flightgear", "--out", text(&slow)]].concat()).ends(OK);
+    let of = ["identify", text(&slow), "--output", "roll_rate", "--input", "stick_right"];
+    tiltrotor(&[&of[..], &["--low", "7"]].concat())
+        .refused()
+        .says("the input is not swept between 7.00 and 12.00 rad/s");
     fs::remove_dir_all(place).expect("our own folder");
 }
