@@ -65,7 +65,7 @@ PYTHON
 
 "$python" sweep
 "$tiltrotor" verify variants
-"$tiltrotor" log export variants/*.mcap --parquet tables >exported
+"$tiltrotor" log export variants/*.mcap --parquet tables >exported || { cat exported >&2; exit 1; }
 "$python" - <<'PYTHON'
 import duckdb
 import tiltrotor
@@ -80,7 +80,7 @@ for file, load_factor, _ in rows:
     assert tiltrotor.read(f"variants/{name}", "outputs")["load_factor"].max() == load_factor, file
 PYTHON
 # Compacted logs become tables, too: the golden flights are.
-"$tiltrotor" log export "$golden"/*.mcap --parquet golden >>exported
+"$tiltrotor" log export "$golden"/*.mcap --parquet golden >exported || { cat exported >&2; exit 1; }
 "$python" - "$golden"/*.mcap <<'PYTHON'
 import sys
 
