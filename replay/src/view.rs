@@ -54,6 +54,8 @@ mod own;
 mod parts;
 mod plots;
 mod raw;
+#[cfg(test)]
+mod read_back;
 mod scene;
 mod scenery;
 mod sections;
