@@ -113,7 +113,7 @@ fn the_aircraft_in_space_is_where_and_how_the_state_says() {
         (Transform3D::descriptor_translation(), Transform3D::descriptor_quaternion());
     let mut seen = 0;
     for chunk in drawn() {
-        if chunk.entity_path().to_string() != "/world/aircraft" {
+        if *chunk.entity_path() != "/world/aircraft".into() {
             continue;
         }
         let places = chunk.iter_slices::<[f32; 3]>(position.component);
