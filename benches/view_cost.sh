@@ -3,12 +3,14 @@
 # Usage: benches/view_cost.sh LOG.mcap [TILTROTOR]
 # Fails above 0.35 times the CPU of `rerun mcap convert`, and above 60 MB.
 set -euo pipefail
+# As given, from where it is called.
+log=$(realpath -e "${1:?a log}")
+tiltrotor=${2:+$(realpath -e "$2")}
 cd "$(dirname "$0")/.."
 
 RATIO_MAX=0.35
 KB_MAX=61440
-log=${1:?a log}
-tiltrotor=${2:-target/release/tiltrotor}
+tiltrotor=${tiltrotor:-target/release/tiltrotor}
 rerun=target/rerun-0.36.3/bin/rerun
 [ -x "$rerun" ] || { echo "$0: no viewer: tests/rerun_screenshot.sh brings it" >&2; exit 2; }
 work=$(mktemp -d)

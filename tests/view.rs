@@ -4,7 +4,9 @@
 mod common;
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 use common::{DIVERGED, Forgery, OK, UNUSABLE, folder, hover, text, tiltrotor};
 
@@ -25,13 +27,22 @@ fn viewer(place: &Path, version: &str, then: &str) -> PathBuf {
          echo \"$@\" >{}\n{then}\n",
         given.display()
     );
-    fs::write(&program, script).expect("a script");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).expect("may run");
-    }
+    program_of(&program, &script);
     program
+}
+
+/// Makes a script that can be run at once. What this process writes itself may stay open for a moment in a
+/// child that another test starts meanwhile, and what is open for writing cannot be run.
+fn program_of(program: &Path, script: &str) {
+    let mut writer = Command::new("sh")
+        .args(["-c", "cat >\"$0\" && chmod 755 \"$0\"", text(program)])
+        .stdin(Stdio::piped())
+        .spawn()
+        .expect("a shell");
+    let mut to = writer.stdin.take().expect("its input");
+    to.write_all(script.as_bytes()).expect("it takes the script");
+    drop(to);
+    assert!(writer.wait().expect("it ends").success(), "{}", program.display());
 }
 
 /// What the viewer of these recordings is.
@@ -146,6 +157,62 @@ fn a_viewer_that_is_missing_old_or_dies_is_told_before_and_after_drawing() {
     assert!(!place.join("flight.rrd").exists(), "drawn for no viewer");
     let dying = viewer(&place, VERSION, "echo 'no graphics adapter' >&2; exit 3");
     with(&dying).ends(UNUSABLE).says("no graphics adapter").says("--save");
+    // Told where to go, and dead after it was watched: no success either.
+    let later = viewer(&place, VERSION, "sleep 4; echo 'lost the screen' >&2; exit 3");
+    tiltrotor(&["view", text(&log), "--viewer", text(&later), "--at", "0.5"])
+        .ends(UNUSABLE)
+        .says("lost the screen");
+    let closed = viewer(&place, VERSION, "sleep 4; exit 0");
+    tiltrotor(&["view", text(&log), "--viewer", text(&closed), "--at", "0.5"]).ends(OK);
+}
+
+/// Scripts that are run at once while other threads start programs: none is "busy".
+#[test]
+#[cfg(unix)]
+fn scripts_are_run_while_other_programs_are_started() {
+    let place = folder("view-busy");
+    std::thread::scope(|scope| {
+        for thread in 0..4 {
+            let place = &place;
+            scope.spawn(move || {
+                for round in 0..25 {
+                    let program = place.join(format!("program-{thread}-{round}"));
+                    program_of(&program, "#!/bin/sh\nexit 0\n");
+                    let ended = Command::new(&program).status();
+                    assert!(ended.as_ref().is_ok_and(|ended| ended.success()), "{ended:?}");
+                }
+            });
+        }
+    });
+}
+
+/// A place that is in no recording is told at once: not after the drawing, and not by waiting for the viewer.
+#[test]
+#[cfg(unix)]
+fn a_place_that_is_not_drawn_is_told_before_the_drawing() {
+    let place = folder("view-places");
+    let log = place.join("flight.mcap");
+    hover(&log, "2");
+    let program = viewer(&place, VERSION, "sleep 5");
+    let with = |more: &[&str]| {
+        let mut words = vec!["view", text(&log), "--viewer", text(&program)];
+        words.extend(more);
+        tiltrotor(&words)
+    };
+    with(&["--at", "marker:99"]).refused().says("no marker:99");
+    with(&["--at", "event:999"]).refused().says("no event 999");
+    with(&["--at", "60"]).refused().says("60.000 s").says("to tick 500 (2.000 s)");
+    with(&["--at", "1.6", "--from", "0.4", "--until", "1.2"]).refused().says("1.600 s");
+    with(&["--at", "0.2", "--from", "0.4"]).refused().says("0.200 s");
+    // Of a log that was never closed, as far as it goes.
+    let cut = place.join("cut.mcap");
+    let bytes = fs::read(&log).expect("the log");
+    fs::write(&cut, &bytes[..bytes.len() / 2]).expect("half of it");
+    tiltrotor(&["view", text(&cut), "--viewer", text(&program), "--at", "60"])
+        .refused()
+        .says("60.000 s");
+    assert!(!place.join("flight.rrd").exists() && !place.join("cut.rrd").exists(), "drawn");
+    assert!(!place.join("given").exists(), "a viewer was started");
 }
 
 #[test]

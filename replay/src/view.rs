@@ -54,6 +54,8 @@ mod own;
 mod parts;
 mod plots;
 mod raw;
+#[cfg(test)]
+mod read_back;
 mod scene;
 mod scenery;
 mod sections;
@@ -82,8 +84,9 @@ use track::Track;
 
 /// Draws a flight into an `.rrd` file while it is flown or reflown.
 ///
-/// Memory hardly grows with the flight: ten seconds of rows, a path that is thinned, and rerun's
-/// index of the file. The first error is kept and told by [`finish`](Self::finish), so that drawing
+/// Rows do not gather: ten seconds of them and a path that is thinned are in memory. What grows with the
+/// flight, by about 0.04 MB for each second (seen as the whole process's), is the drawing alone; rerun's index of the
+/// file, which has an entry for each chunk, is what is kept of it to the end. The first error is kept and told by [`finish`](Self::finish), so that drawing
 /// never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
 /// the whole path.
 pub struct FlightView {

@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail};
 use engine::STEP_NS;
 use logs::records::Happening;
 use logs::text::at;
+use replay::Window;
 
 use crate::window::When;
 
@@ -43,26 +44,69 @@ impl FromStr for At {
     }
 }
 
+/// Where the viewer opens, as far as that is known before anything is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// At a tick that is drawn.
+    Tick(u64),
+    /// Where something is not the same.
+    FirstDifference,
+}
+
 impl At {
-    /// Its tick.
-    pub fn tick(self, log: &Path) -> Result<u64> {
-        match self {
-            Self::When(when) => when.tick(log),
-            Self::FirstDifference => bail!("the first difference is known when it is drawn"),
-            Self::Event(number) => {
-                let told = told(log)?;
-                let place = usize::try_from(number - 1).unwrap_or(usize::MAX);
-                match told.get(place) {
-                    Some((tick, _)) => Ok(*tick),
-                    None => bail!(
-                        "{}: no event {number}; there are {}: `tiltrotor log summary {0}` lists them",
-                        log.display(),
-                        told.len()
-                    ),
-                }
-            }
+    /// Its place in what is drawn of the log; refused when nothing is drawn there.
+    pub fn place(self, log: &Path, window: &Window) -> Result<Place> {
+        let tick = match self {
+            Self::FirstDifference => return Ok(Place::FirstDifference),
+            Self::When(when) => when.tick(log).with_context(|| log.display().to_string())?,
+            Self::Event(number) => event(log, number)?,
+        };
+        let (first, last) = drawn(log, window)?;
+        if !(first..=last).contains(&tick) {
+            bail!(
+                "--at: {} is not drawn; of {} that is from {} to {}",
+                at(tick),
+                log.display(),
+                at(first),
+                at(last)
+            );
         }
+        Ok(Place::Tick(tick))
     }
+}
+
+/// The tick of the so-manieth event.
+fn event(log: &Path, number: u64) -> Result<u64> {
+    let told = told(log)?;
+    let place = usize::try_from(number - 1).unwrap_or(usize::MAX);
+    match told.get(place) {
+        Some((tick, _)) => Ok(*tick),
+        None => bail!(
+            "{}: no event {number}; there are {}: `tiltrotor log summary {0}` lists them",
+            log.display(),
+            told.len()
+        ),
+    }
+}
+
+/// First and last tick of what is drawn of a log.
+fn drawn(log: &Path, window: &Window) -> Result<(u64, u64)> {
+    let name = || log.display().to_string();
+    let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
+    let first = reader.initial.tick;
+    let last = match logs::closing(log) {
+        Some((last, _)) => last,
+        // Never closed: as far as it can be read.
+        None => {
+            reader.states_as_bytes = !reader.is_compacted();
+            while let Ok(Some(_)) = reader.next_tick() {
+                reader.timings.clear();
+            }
+            reader.last_tick()
+        }
+    };
+    let (from, until) = (window.from_tick.unwrap_or(first), window.until_tick.unwrap_or(last));
+    Ok((from.max(first), until.min(last)))
 }
 
 /// What of the other log is laid beside the first one.

@@ -10,7 +10,7 @@ use replay::view::{Mark, Stamp, Standing};
 
 use super::args::Args;
 use super::draw::{self, Drawing, layout};
-use super::moment::{Align, At};
+use super::moment::{Align, At, Place};
 use super::viewer::Viewer;
 use crate::status::Status;
 
@@ -30,11 +30,12 @@ pub fn run(args: &Args) -> Result<Status> {
         Some(_) => None,
         None => Some(Viewer::find(&args.viewer)?),
     };
-    let saved = args.save.clone().unwrap_or_else(|| place(args));
+    let saved = args.save.clone().unwrap_or_else(|| beside_the_log(args));
     let window = args.window.of(&args.log)?;
     if args.against.is_some() && window != Window::default() {
         bail!("--against shows whole flights; `tiltrotor log clip` makes logs of their parts");
     }
+    let place = at.map(|at| at.place(&args.log, &window)).transpose()?;
     let shift_ticks = match &args.against {
         Some(other) => align.shift_ticks(&args.log, other)?,
         None => 0,
@@ -50,13 +51,13 @@ pub fn run(args: &Args) -> Result<Status> {
     };
     let status = Status::of_number(mark.status);
     if let Some(viewer) = viewer {
-        viewer.show(&saved, opens_at(args, at, mark)?)?;
+        viewer.show(&saved, opens_at(args, place, mark))?;
     }
     Ok(status)
 }
 
 /// Where a recording is that is not asked for by name: beside the log.
-fn place(args: &Args) -> PathBuf {
+fn beside_the_log(args: &Args) -> PathBuf {
     let Some(other) = &args.against else { return args.log.with_extension("rrd") };
     let stem = |path: &Path| path.file_stem().unwrap_or_default().display().to_string();
     args.log.with_file_name(format!("{}-against-{}.rrd", stem(&args.log), stem(other)))
@@ -90,20 +91,19 @@ fn draw(args: &Args, saved: &Path, drawing: &Drawing, inputs: &[&Path]) -> Resul
 }
 
 /// The tick that the viewer opens at.
-fn opens_at(args: &Args, wanted: Option<At>, mark: Mark) -> Result<Option<u64>> {
+fn opens_at(args: &Args, wanted: Option<Place>, mark: Mark) -> Option<u64> {
     let tick = match wanted {
-        Some(At::FirstDifference) => match mark.first_difference {
-            Some(tick) => Some(tick),
-            None => {
+        Some(Place::FirstDifference) => {
+            if mark.first_difference.is_none() {
                 say!("no difference: opening at the start");
-                None
             }
-        },
-        Some(wanted) => Some(wanted.tick(&args.log)?),
+            mark.first_difference
+        }
+        Some(Place::Tick(tick)) => Some(tick),
         None => mark.first_difference.filter(|_| args.against.is_some()),
     };
     if let Some(tick) = tick {
         say!("opens at {}", at(tick));
     }
-    Ok(tick)
+    tick
 }

@@ -1,7 +1,7 @@
 //! The viewer: found, of the right version, started, and watched until it stands.
 
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
+use std::io::{ErrorKind, Read, Seek, SeekFrom};
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -21,6 +21,8 @@ const OPENS: Duration = Duration::from_secs(60);
 const LOOK: Duration = Duration::from_millis(50);
 /// So much of what it said before it ended is told.
 const LINES: usize = 4;
+/// So many names are tried for the file that keeps what it says.
+const NAMES: u32 = 1000;
 
 /// A viewer that is there.
 pub struct Viewer {
@@ -86,17 +88,18 @@ fn version(said: &str) -> Option<&str> {
     words.find(|word| word.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Waits until the viewer has run for a while, or been closed by whoever looked at it.
+/// Waits until the viewer has run for a while, or been closed by whoever looked at it. Without patience it is
+/// looked at, too: it may have ended while it was told where to go.
 fn stands(child: &mut Child, patience: Duration) -> Result<()> {
     let began = Instant::now();
-    while began.elapsed() < patience {
+    loop {
         match child.try_wait()? {
             Some(ended) if ended.success() => return Ok(()),
-            Some(ended) => bail!("the viewer ended at once, with {ended}"),
+            Some(ended) => bail!("the viewer ended without being closed, with {ended}"),
+            None if began.elapsed() >= patience => return Ok(()),
             None => thread::sleep(LOOK),
         }
     }
-    Ok(())
 }
 
 /// What it said last, in one line.
@@ -117,16 +120,70 @@ fn free_port() -> std::io::Result<u16> {
 
 /// A file without a name.
 fn tempfile() -> std::io::Result<File> {
-    let path = std::env::temp_dir().join(format!("tiltrotor-viewer-{}", std::process::id()));
-    let file = File::options().read(true).write(true).create(true).truncate(true).open(&path)?;
-    // Where an open file cannot be removed it stays: the next one of this number takes its place.
-    let _ = std::fs::remove_file(&path);
-    Ok(file)
+    nameless(&std::env::temp_dir(), std::process::id())
+}
+
+/// A file without a name, which for a moment has one that nothing else had: the folder is everybody's, and
+/// what stands there under such a name, a link to another file as well, is left alone.
+fn nameless(folder: &Path, of: u32) -> std::io::Result<File> {
+    let mut taken = None;
+    for number in 0..NAMES {
+        let path = folder.join(format!("tiltrotor-viewer-{of}-{number}"));
+        match File::options().read(true).write(true).create_new(true).open(&path) {
+            Ok(file) => {
+                // Where an open file cannot be removed it stays, and its name is taken from then on.
+                let _ = std::fs::remove_file(&path);
+                return Ok(file);
+            }
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => taken = Some(error),
+            Err(error) => return Err(error),
+        }
+    }
+    Err(taken.unwrap_or_else(|| ErrorKind::AlreadyExists.into()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// In a folder that everybody may write to, somebody else's file or link may stand already.
+    #[test]
+    #[cfg(unix)]
+    fn what_the_viewer_says_is_kept_in_no_file_that_was_there() {
+        use std::io::Write;
+        let folder = std::env::temp_dir().join(format!("tiltrotor-names-{}", std::process::id()));
+        std::fs::create_dir(&folder).expect("a folder");
+        let notes = folder.join("notes");
+        std::fs::write(&notes, "somebody's notes").expect("a file");
+        let link = folder.join("tiltrotor-viewer-7-0");
+        std::os::unix::fs::symlink(&notes, &link).expect("a link");
+        let dangling = folder.join("tiltrotor-viewer-7-1");
+        std::os::unix::fs::symlink(folder.join("nowhere"), &dangling).expect("a link");
+        std::fs::write(folder.join("tiltrotor-viewer-7-2"), "another's").expect("a file");
+        let mut file = nameless(&folder, 7).expect("a file without a name");
+        file.write_all(b"no graphics adapter").expect("written");
+        assert!(last_words(&mut file).contains("no graphics adapter"));
+        assert_eq!(std::fs::read(&notes).expect("the notes"), b"somebody's notes");
+        assert!(!folder.join("nowhere").exists(), "made through a link");
+        assert!(!folder.join("tiltrotor-viewer-7-3").exists(), "it has a name");
+        std::fs::remove_dir_all(&folder).expect("a folder of ours");
+    }
+
+    /// A viewer that was told where to go for longer than it is watched, and ended meanwhile.
+    #[test]
+    #[cfg(unix)]
+    fn a_viewer_that_died_while_it_was_told_where_to_go_is_no_success() {
+        let ends = |script: &str| {
+            let mut child = Command::new("sh").args(["-c", script]).spawn().expect("a shell");
+            while child.try_wait().expect("it is ours").is_none() {
+                thread::sleep(LOOK);
+            }
+            stands(&mut child, Duration::ZERO)
+        };
+        assert!(ends("exit 3").is_err_and(|error| error.to_string().contains("exit status: 3")));
+        assert!(ends("kill -9 $$").is_err_and(|error| error.to_string().contains("signal")));
+        assert!(ends("exit 0").is_ok());
+    }
 
     #[test]
     fn a_version_is_read_off_what_the_viewer_says_of_itself() {

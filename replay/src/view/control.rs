@@ -10,10 +10,12 @@ use re_protos::sdk_comms::v1alpha1::{
 };
 use tonic::transport::{Channel, Endpoint};
 
-use super::basics::SIM_TIME;
+use super::basics::{SIM_TIME, TICKS_PER_ROW};
 
 /// Between two looks at whether the viewer has what it is to show.
 const PAUSE: Duration = Duration::from_millis(100);
+/// From one row to the next.
+const ROW_NS: i64 = (TICKS_PER_ROW * STEP_NS) as i64;
 
 /// Why a viewer does not show what it is to show.
 #[derive(Debug, thiserror::Error)]
@@ -90,11 +92,11 @@ async fn attempt(
     Ok(true)
 }
 
-/// Whether the recording that is shown goes on beyond that time.
+/// Whether the recording that is shown goes as far as that time; the last ticks of a flight may be short of a row.
 fn reaches(state: &GetViewerStateResponse, time_ns: i64) -> bool {
     let shown = state.recordings.iter().filter(|one| one.store_id == state.active_store_id);
     shown.flat_map(|recording| &recording.timelines).any(|timeline| {
         timeline.timeline.as_ref().is_some_and(|timeline| timeline.name == SIM_TIME)
-            && timeline.time_range.is_some_and(|range| range.end >= time_ns)
+            && timeline.time_range.is_some_and(|range| range.end.saturating_add(ROW_NS) > time_ns)
     })
 }

@@ -18,6 +18,10 @@ const DRAWN: &str = "tiltrotor-drawn-";
 const MARK: &str = "tiltrotor-mark-";
 /// The id is within so many bytes of the beginning.
 const BEGINNING_BYTES: u64 = 4096;
+/// What came of it is looked for in blocks of so many bytes.
+const BLOCK_BYTES: u64 = 1 << 20;
+/// It is no longer than that: a status of three digits, a tick of twenty.
+const MARK_BYTES_MAX: u64 = 64;
 
 /// What a recording shows, and how.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,10 +92,7 @@ impl Stamp {
         if !contains(&beginning, self.0.as_bytes()) {
             return Ok(Standing::Stale);
         }
-        file.seek(SeekFrom::Start(0))?;
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes)?;
-        Ok(Mark::in_bytes(&bytes).map_or(Standing::Stale, Standing::Fresh))
+        Ok(Mark::last_in(&mut file, about.len())?.map_or(Standing::Stale, Standing::Fresh))
     }
 }
 
@@ -102,7 +103,26 @@ impl Mark {
         format!("{MARK}{}-{tick}.", self.status)
     }
 
-    /// The last one in a file.
+    /// The last one in a file of that length, looked for from its end: a block of it is in memory, and a
+    /// recording of an hour is not read for what stands behind it.
+    fn last_in(file: &mut (impl Read + Seek), length: u64) -> std::io::Result<Option<Self>> {
+        let mut bytes = Vec::new();
+        let mut end = length;
+        while end > 0 {
+            let start = end.saturating_sub(BLOCK_BYTES);
+            file.seek(SeekFrom::Start(start))?;
+            bytes.clear();
+            // One that begins in this block may end in the one behind it.
+            file.take(end - start + MARK_BYTES_MAX).read_to_end(&mut bytes)?;
+            if contains(&bytes, MARK.as_bytes()) {
+                return Ok(Self::in_bytes(&bytes));
+            }
+            end = start;
+        }
+        Ok(None)
+    }
+
+    /// The last one in these bytes.
     fn in_bytes(bytes: &[u8]) -> Option<Self> {
         let at = bytes.windows(MARK.len()).rposition(|window| window == MARK.as_bytes())?;
         let rest = &bytes[at + MARK.len()..];
@@ -144,6 +164,50 @@ fn digest(from: &mut impl Read) -> std::io::Result<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Cursor;
+
+    /// A file that counts what is read of it.
+    struct Counted(Cursor<Vec<u8>>, u64);
+
+    impl Read for Counted {
+        fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+            let read = self.0.read(into)?;
+            self.1 += read as u64;
+            Ok(read)
+        }
+    }
+
+    impl Seek for Counted {
+        fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+            self.0.seek(to)
+        }
+    }
+
+    #[test]
+    fn what_came_of_it_is_found_from_the_end_of_a_long_recording() {
+        let mark = Mark { status: 255, first_difference: Some(u64::MAX) };
+        let name = mark.name();
+        assert!(name.len() as u64 <= MARK_BYTES_MAX);
+        let length = 5 * BLOCK_BYTES;
+        let with = |places: &[u64]| {
+            let mut bytes = vec![b'.'; length as usize];
+            for place in places {
+                bytes[*place as usize..][..name.len()].copy_from_slice(name.as_bytes());
+            }
+            let mut file = Counted(Cursor::new(bytes), 0);
+            let found = Mark::last_in(&mut file, length).expect("it is read");
+            (found, file.1)
+        };
+        // Near the end, little of it is read.
+        let (found, read) = with(&[length - 5_000]);
+        assert_eq!(found, Some(mark));
+        assert!(read <= BLOCK_BYTES, "{read}");
+        // Wherever it stands, across the border of two blocks as well.
+        for place in [0, BLOCK_BYTES - 1, 2 * BLOCK_BYTES - 20, 3 * BLOCK_BYTES] {
+            assert_eq!(with(&[place]).0, Some(mark), "{place}");
+        }
+        assert_eq!(with(&[]).0, None);
+    }
 
     #[test]
     fn a_recording_is_fresh_stale_or_foreign() {

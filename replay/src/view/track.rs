@@ -139,10 +139,13 @@ impl Track {
             }
             Some(last)
                 if last.tick / TICKS_PER_ROW == timing.tick / TICKS_PER_ROW && !grave(timing) => {}
-            _ => self.times.push(*timing),
-        }
-        if self.times.len() >= ROWS_PER_CHUNK {
-            self.flush_times(canvas);
+            _ => {
+                // Only before a new row: the last one is not complete until then.
+                if self.times.len() >= ROWS_PER_CHUNK {
+                    self.flush_times(canvas);
+                }
+                self.times.push(*timing);
+            }
         }
     }
 
