@@ -110,10 +110,10 @@ fn aircraft(eye_m: [f32; 3], without: &'static [&'static str]) -> Part {
     view(Shown::Aircraft { eye_m, without })
 }
 
-fn places(first: Shown) -> Part {
+fn places(first: &Shown) -> Part {
     let all = [Shown::Corridor, Shown::Overview, Shown::Map];
     let mut parts = vec![view(first.clone())];
-    parts.extend(all.into_iter().filter(|shown| *shown != first).map(view));
+    parts.extend(all.into_iter().filter(|shown| shown != first).map(view));
     Part::Tabs("Places".into(), parts)
 }
 
@@ -150,7 +150,7 @@ fn tabs(plan: &Plan, all: &[Tab]) -> Part {
 }
 
 fn pilot(plan: &Plan) -> Part {
-    let left = vec![aircraft(BEHIND_M, NO_LOADS), places(Shown::Corridor), view(Shown::Events)];
+    let left = vec![aircraft(BEHIND_M, NO_LOADS), places(&Shown::Corridor), view(Shown::Events)];
     let plots = tabs(plan, &[FLIGHT, MOTION, CONTROLS, ROTORS, ENGINES, GEAR]);
     across(
         "Pilot",
@@ -163,7 +163,7 @@ fn pilot(plan: &Plan) -> Part {
 }
 
 fn engineer(plan: &Plan) -> Part {
-    let left = vec![aircraft(BEHIND_M, NO_MOMENTS), places(Shown::Corridor), view(Shown::Events)];
+    let left = vec![aircraft(BEHIND_M, NO_MOMENTS), places(&Shown::Corridor), view(Shown::Events)];
     let all = [FLIGHT, CONTROLS, LOADS, ROTORS, BLADES, ENGINES, MOTION, GEAR, LATENCY];
     across(
         "Engineer",
@@ -176,7 +176,7 @@ fn engineer(plan: &Plan) -> Part {
 }
 
 fn rotor(plan: &Plan) -> Part {
-    let left = vec![aircraft(NEAR_M, &[]), places(Shown::Corridor), view(Shown::Events)];
+    let left = vec![aircraft(NEAR_M, &[]), places(&Shown::Corridor), view(Shown::Events)];
     let plots = across(
         "Rotors",
         &[],
@@ -239,7 +239,7 @@ fn compare(plan: &Plan) -> Part {
     let largest = Shown::Document { name: "Largest differences", entity: "/delta/largest" };
     let left = vec![
         aircraft(BEHIND_M, NO_LOADS),
-        places(Shown::Overview),
+        places(&Shown::Overview),
         Part::Tabs("What differs".into(), vec![view(largest), view(Shown::Events)]),
     ];
     across(
