@@ -266,7 +266,7 @@ mod tests {
         }
     }
 
-    fn all_of(layout: Layout, roots: &[&str]) -> Vec<Shown> {
+    fn all_of(layout: &Layout, roots: &[&str]) -> Vec<Shown> {
         let plan = Plan::new(roots);
         let mut found = Vec::new();
         shown(&layout.tree(&plan), &mut found);
@@ -275,7 +275,7 @@ mod tests {
 
     #[test]
     fn every_graph_is_in_the_engineer_s_layout_and_every_name_is_a_graph() {
-        let found = all_of(Layout::Engineer, &[""]);
+        let found = all_of(&Layout::Engineer, &[""]);
         for entity in GRAPHS.iter().map(|graph| graph.entity).chain(TIMES.iter().map(|g| g.entity))
         {
             let query = format!("/{entity}");
@@ -295,7 +295,7 @@ mod tests {
     fn lanes_are_below_the_plots_of_every_layout() {
         for (name, layout) in Layout::NAMED {
             let roots: &[&str] = if layout == Layout::Compare { &["a/", "b/"] } else { &[""] };
-            let found = all_of(layout, roots);
+            let found = all_of(&layout, roots);
             assert!(found.iter().any(|one| matches!(one, Shown::Lanes { .. })), "{name}");
             assert!(found.contains(&Shown::Events), "{name}");
         }
@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn a_comparison_shows_both_and_the_difference() {
-        let found = all_of(Layout::Compare, &["calm/", "gusts/"]);
+        let found = all_of(&Layout::Compare, &["calm/", "gusts/"]);
         let of = |wanted: &[&str]| {
             let wanted: Vec<String> = wanted.iter().map(|&one| one.into()).collect();
             found.iter().any(|one| matches!(one, Shown::Plot { queries, .. } if *queries == wanted))
