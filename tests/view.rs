@@ -6,7 +6,7 @@ mod common;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 
 use common::{DIVERGED, Forgery, OK, UNUSABLE, folder, hover, text, tiltrotor};
 
@@ -179,7 +179,7 @@ fn scripts_are_run_while_other_programs_are_started() {
                     let program = place.join(format!("program-{thread}-{round}"));
                     program_of(&program, "#!/bin/sh\nexit 0\n");
                     let ended = Command::new(&program).status();
-                    assert!(ended.as_ref().is_ok_and(|ended| ended.success()), "{ended:?}");
+                    assert!(ended.as_ref().is_ok_and(ExitStatus::success), "{ended:?}");
                 }
             });
         }

@@ -110,10 +110,10 @@ fn aircraft(eye_m: [f32; 3], without: &'static [&'static str]) -> Part {
     view(Shown::Aircraft { eye_m, without })
 }
 
-fn places(first: Shown) -> Part {
+fn places(first: &Shown) -> Part {
     let all = [Shown::Corridor, Shown::Overview, Shown::Map];
     let mut parts = vec![view(first.clone())];
-    parts.extend(all.into_iter().filter(|shown| *shown != first).map(view));
+    parts.extend(all.into_iter().filter(|shown| shown != first).map(view));
     Part::Tabs("Places".into(), parts)
 }
 
@@ -150,7 +150,7 @@ fn tabs(plan: &Plan, all: &[Tab]) -> Part {
 }
 
 fn pilot(plan: &Plan) -> Part {
-    let left = vec![aircraft(BEHIND_M, NO_LOADS), places(Shown::Corridor), view(Shown::Events)];
+    let left = vec![aircraft(BEHIND_M, NO_LOADS), places(&Shown::Corridor), view(Shown::Events)];
     let plots = tabs(plan, &[FLIGHT, MOTION, CONTROLS, ROTORS, ENGINES, GEAR]);
     across(
         "Pilot",
@@ -163,7 +163,7 @@ fn pilot(plan: &Plan) -> Part {
 }
 
 fn engineer(plan: &Plan) -> Part {
-    let left = vec![aircraft(BEHIND_M, NO_MOMENTS), places(Shown::Corridor), view(Shown::Events)];
+    let left = vec![aircraft(BEHIND_M, NO_MOMENTS), places(&Shown::Corridor), view(Shown::Events)];
     let all = [FLIGHT, CONTROLS, LOADS, ROTORS, BLADES, ENGINES, MOTION, GEAR, LATENCY];
     across(
         "Engineer",
@@ -176,7 +176,7 @@ fn engineer(plan: &Plan) -> Part {
 }
 
 fn rotor(plan: &Plan) -> Part {
-    let left = vec![aircraft(NEAR_M, &[]), places(Shown::Corridor), view(Shown::Events)];
+    let left = vec![aircraft(NEAR_M, &[]), places(&Shown::Corridor), view(Shown::Events)];
     let plots = across(
         "Rotors",
         &[],
@@ -239,7 +239,7 @@ fn compare(plan: &Plan) -> Part {
     let largest = Shown::Document { name: "Largest differences", entity: "/delta/largest" };
     let left = vec![
         aircraft(BEHIND_M, NO_LOADS),
-        places(Shown::Overview),
+        places(&Shown::Overview),
         Part::Tabs("What differs".into(), vec![view(largest), view(Shown::Events)]),
     ];
     across(
@@ -266,7 +266,7 @@ mod tests {
         }
     }
 
-    fn all_of(layout: Layout, roots: &[&str]) -> Vec<Shown> {
+    fn all_of(layout: &Layout, roots: &[&str]) -> Vec<Shown> {
         let plan = Plan::new(roots);
         let mut found = Vec::new();
         shown(&layout.tree(&plan), &mut found);
@@ -275,7 +275,7 @@ mod tests {
 
     #[test]
     fn every_graph_is_in_the_engineer_s_layout_and_every_name_is_a_graph() {
-        let found = all_of(Layout::Engineer, &[""]);
+        let found = all_of(&Layout::Engineer, &[""]);
         for entity in GRAPHS.iter().map(|graph| graph.entity).chain(TIMES.iter().map(|g| g.entity))
         {
             let query = format!("/{entity}");
@@ -295,7 +295,7 @@ mod tests {
     fn lanes_are_below_the_plots_of_every_layout() {
         for (name, layout) in Layout::NAMED {
             let roots: &[&str] = if layout == Layout::Compare { &["a/", "b/"] } else { &[""] };
-            let found = all_of(layout, roots);
+            let found = all_of(&layout, roots);
             assert!(found.iter().any(|one| matches!(one, Shown::Lanes { .. })), "{name}");
             assert!(found.contains(&Shown::Events), "{name}");
         }
@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn a_comparison_shows_both_and_the_difference() {
-        let found = all_of(Layout::Compare, &["calm/", "gusts/"]);
+        let found = all_of(&Layout::Compare, &["calm/", "gusts/"]);
         let of = |wanted: &[&str]| {
             let wanted: Vec<String> = wanted.iter().map(|&one| one.into()).collect();
             found.iter().any(|one| matches!(one, Shown::Plot { queries, .. } if *queries == wanted))
