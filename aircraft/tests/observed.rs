@@ -383,7 +383,7 @@ fn every_validity_bit_is_set_by_what_it_is_there_for() {
     });
     sets(Validity::SPEED, &|state| state.plant.velocity_mps.x = 181.0);
     sets(Validity::HEIGHT, &|state| {
-        state.plant.position_m.z = -12_001.0 + state.plant.origin.height_m
+        state.plant.position_m.z = -12_001.0 + state.plant.origin.height_m;
     });
     sets(Validity::GEAR_BOTTOMED, &|state| {
         state.plant.position_m.z = parked.plant.position_m.z + 0.35;
