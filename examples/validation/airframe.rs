@@ -133,8 +133,8 @@ pub fn components(aircraft: &Aircraft, book: &mut Book) {
          .206), and that is all of the wing's Z and M. The fuselage's printed X has 1.00 ft² of drag \
          beside its table, Rev. A's DLANG and D_POD make .65. A rotor's printed M is that of its X and Z at \
          a hub 6.2 ft above the centre and a hub moment of -134 and -28 ft·lbf: by 225 ft·lbf/deg a disc \
-         tilted .6 and .1 deg forward. Ours is tilted 1 deg further aft at the same cyclic: thrust times \
-         that is what X misses, 6.2 ft of it what M does. The printed Y is outboard; the lateral cyclic \
+         tilted .6 and .1 deg forward. Ours is tilted 1 deg further aft at the same cyclic. The miss of X is the thrust times \
+         this angle; the miss of M is that force times 6.2 ft. The printed Y is outboard; the lateral cyclic \
          that 8a-VIII programmes from 40 kt on, -4 deg, would turn ours inboard (-181 and -219 lbf), so \
          the printouts are without it, as this case is; the trims of case 3 are with it.",
     );

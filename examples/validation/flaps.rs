@@ -69,8 +69,7 @@ pub fn by_flap(aircraft: &Aircraft, book: &mut Book) {
         Class::A,
         "hover by flap, out of ground effect",
         "NASA CR-176970 Tables 1 and 5: power at the masts and what follows of download.",
-        "Weight, density and rotor speed are those of each setting (13,537 to 13,673 lb, 587 rpm); power ±5 %, \
-         as the plan has for hover, download ±1 % of thrust, what the report's own ways to it spread over. \
+        "Weight, density and rotor speed are those of each setting (13,537 to 13,673 lb, 587 rpm); power ±5 %, as for other hovers, download ±1 % of thrust, what the report's own ways to it spread over. \
          The aircraft flew with flaps and flaperons as one over the full span. Ours has their \
          ratio of .625, and flies the flap whose mean deflection by area is the same: .757 of the flap's. \
          The lowest, 60 deg, would be a flap of 79; ours ends at 75, 57 deg. The wing's drag across the flow \

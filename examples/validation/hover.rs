@@ -79,9 +79,9 @@ pub fn isolated_rotor(aircraft: &Aircraft, book: &mut Book) {
         "isolated rotor in hover, tip speed 768 ft/s",
         "OARF run 15, original blades, NASA CR-2017-219486 Table A-2.",
         "Figure of merit ±.02 is half of what the two test facilities disagree by; power ±3 % is that \
-         of the balance. Collective has another zero in every source: only its slope is compared. The \
+         of the balance. Each source counts collective from another zero, so only its slope is compared. The \
          stand has neither wing nor neighbour: what those cost in hover is left out here. The induced factor \
-         is fitted between C_T .004 and .0131, the plan's range. At .0151 the inner half of the blade stands at 15 to \
+         is fitted between C_T .004 and .0131, the range that was set beforehand. At .0151 the inner half of the blade stands at 15 to \
          21 deg, beyond the published section tables, which end at 8 deg (drag) and 12 deg (lift): on the \
          flat plate that follows them it drags too much. The full section tables would settle it.",
     );
@@ -120,8 +120,8 @@ pub fn hover(aircraft: &Aircraft, book: &mut Book) {
          NASA CR-166537 (pitch, stick, thrust).",
         "The band of power holds the flight test (1465 to 1500 kW) and GTRS (1430 kW) with 10 kW either \
          way, download what the flight test spread over; pitch and stick what GTRS and flight differ \
-         by. The power is that of the masts: accessories and gears come before it. Of it, 6 % is what \
-         the same rotors take beyond the stand's, a ratio of two tests that is put in, not found.",
+         by. The power is that of the masts: accessories and gears come before it. Of it, 6 % is a correction that is put in: the ratio of the same rotors' power in flight \
+         and on the stand. The model does not predict it.",
     );
     let trim = trim(aircraft, &Target::default());
     let of = |f: &dyn Fn(&Trim) -> f64| trim.as_ref().map(f).map_err(ToString::to_string);

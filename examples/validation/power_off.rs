@@ -60,16 +60,15 @@ pub fn descents(aircraft: &Aircraft, book: &mut Book) {
          {ours} as it is; {none} if the engines gave nothing at idle; then {slow} at 458 rpm and {fast} \
          at 589 rpm; then {flap_20} with flaps 20, {flap_40} with flaps 40 (beyond their 170 kt at the faster), \
          at 517 rpm. Idle power is half of the miss: .16 of the take-off rating is no measurement but \
-         what keeps the rotors at 589 rpm on the ground, at the pitch of least torque. At idle in flight \
-         less may come, but no source has it, and below nothing an engine behind its clutch does not \
-         go. The windmilling rotor is not the rest: at the thrust nearest to it its power is that of CR-2016-219086 to 4 % \
+         what keeps the rotors at 589 rpm on the ground, at the pitch of least torque. At idle in flight less may come, but no source has it; and because of its clutch an \
+         engine cannot take power from the rotors. The windmilling rotor is not the rest: at the thrust nearest to it its power is that of CR-2016-219086 to 4 % \
          (case 17, aeroplane, V/ΩR .70), and another rotor speed is worth 250 to 350 ft/min. Nor is the governor: it \
          holds the rotor speed, its collective far inside its limits. What is left, 1,000 and 1,700 ft/min, would \
          be 11 and 9 ft² of drag area, as much as the aeroplane has at all, against the top speed of case 7. \
          Flaps \
          would make it, which the procedure of the same report lowers before the reconversion: with no power, \
          flaps 20 are a fifth to a third of what is left, flaps 40 all of it. An intake's ram drag (m·V of two \
-         engines, some 100 lbf at 190 kt and idle) is not in the model. Settled would it be by the flaps, the \
+         engines, some 100 lbf at 190 kt and idle) is not in the model. It would be settled by the flaps, the \
          rotor speed, the weight and the torque at the masts in those descents.",
         ours = both(aircraft, same),
         none = both(&still, same),

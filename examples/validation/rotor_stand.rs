@@ -133,7 +133,7 @@ pub fn in_wind(aircraft: &Aircraft, book: &mut Book) {
         "NASA CR-2016-219086, steady results: the rotor as a source of momentum in a flow solver, with \
          section tables of its own.",
         "Compared at the published thrust. Power ±5 %, in hover ±3 %: what its author gives as the offset \
-         from tests. Collective ±1 deg, the plan's tolerance of a collective; the source counts it from \
+         from tests. Collective ±1 deg, as everywhere; the source counts it from \
          another zero, theta at 3/4 radius is its theta_0 + 6.61 deg, and says that no program is known to \
          match thrust, power and collective at once. Sea level, tip speeds 183.76 m/s (aeroplane), 221.17 \
          (tilted) and 225.55 (hover); the tip path is held square to the mast by cyclic, which the source \

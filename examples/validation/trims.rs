@@ -150,8 +150,7 @@ pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
          printouts is the rotor's: for the \
          printed cyclic its tip path stands too far aft, alike at 40 to 80 kt and not at all in hover \
          (case 14: X some 100 lb, M some 800 ft lb a rotor), and the stick that makes up for it \
-         moves the elevator too. Half as much again comes with the programmed lateral cyclic through \
-         delta 3: with CR-166536's -4 deg a rotor's side force is -180 to -280 lb (inboard), without any \
+         moves the elevator too. The programmed lateral cyclic adds another 50 % to this miss through delta 3: with CR-166536's -4 deg a rotor's side force is -180 to -280 lb (inboard), without any \
          240 to 200 lb, printed are 367 to 212 lb, as if the printouts had been run without it. Thrust \
          at 80 kt is the printed wing's lift (case 14).",
     );

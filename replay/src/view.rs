@@ -85,8 +85,8 @@ use track::Track;
 /// Draws a flight into an `.rrd` file while it is flown or reflown.
 ///
 /// Rows do not gather: ten seconds of them and a path that is thinned are in memory. What grows with the
-/// flight, by about 0.04 MB for each second (seen as the whole process's), is the drawing alone; rerun's index of the
-/// file, which has an entry for each chunk, is what is kept of it to the end. The first error is kept and told by [`finish`](Self::finish), so that drawing
+/// flight, by about 0.04 MB for each second (seen as the whole process's), comes from the drawing; probably it is
+/// rerun's index of the file, which has an entry for each chunk. The first error is kept and told by [`finish`](Self::finish), so that drawing
 /// never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
 /// the whole path.
 pub struct FlightView {
