@@ -134,6 +134,9 @@ fn empty_tanks_and_the_impact_are_told_with_sink_and_speed() {
     assert!(said.starts_with("impact, sinking ") && said.ends_with("structural contact: the hull"));
     let validity = words(&log, Happening::Validity);
     assert!(validity.iter().any(|words| words.contains("hull on the ground")), "{validity:?}");
+    // A wreck that rolls over its wheels neither lands nor lifts off.
+    let wheels = told(&log, Happening::WeightOnWheels);
+    assert!(wheels.iter().all(|(event, _)| event.tick <= hull.tick), "{wheels:?}");
 }
 
 #[test]

@@ -15,6 +15,8 @@ pub(super) struct Told {
     before: Observed,
     /// Sink and speed when a wheel last came to the ground.
     contact: [f64; 2],
+    /// The hull has touched the ground: what the wheels do after it is no touchdown.
+    wrecked: bool,
     sink_mps_max: f64,
     reserve_sink_mps_max: f64,
 }
@@ -26,6 +28,7 @@ impl Told {
             weight_on_wheels,
             before: Observed { on_ground: weight_on_wheels != 0, ..Observed::default() },
             contact: [0.0; 2],
+            wrecked: false,
             sink_mps_max: airframe.touchdown_sink_mps_max,
             reserve_sink_mps_max: airframe.reserve_sink_mps_max,
         }
@@ -35,6 +38,7 @@ impl Told {
     pub(super) fn restart(&mut self, state: &State) {
         self.weight_on_wheels = state.plant.weight_on_wheels;
         self.before = Observed { on_ground: self.weight_on_wheels != 0, ..Observed::default() };
+        self.wrecked = false;
     }
 
     /// What the wheels and the hull did in a tick.
@@ -45,14 +49,15 @@ impl Told {
         seen: &Observed,
     ) -> Result<(), LogError> {
         let before = std::mem::replace(&mut self.before, *seen);
-        if seen.on_ground && !before.on_ground {
+        if seen.on_ground && !before.on_ground && !self.wrecked {
             self.contact = before.measured();
             self.landing(writer, state.tick)?;
         }
         if (seen.validity - before.validity).contains(Validity::HULL) {
             impact(writer, state.tick, 2, before.measured(), "structural contact: the hull")?;
+            self.wrecked = true;
         }
-        if state.plant.weight_on_wheels == self.weight_on_wheels {
+        if self.wrecked || state.plant.weight_on_wheels == self.weight_on_wheels {
             return Ok(());
         }
         self.weight_on_wheels = state.plant.weight_on_wheels;
