@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use analysis::condition::limits;
 use analysis::trim::Target;
 use anyhow::Result;
 use engine::Aircraft;
 
-use crate::numbers::between;
+use crate::numbers::within;
 use crate::{numbers, texts};
 
 /// Which steady flight.
@@ -26,23 +27,23 @@ pub struct Condition {
     pub climb_fpm: f64,
     /// Power lever instead of a rate of climb, % of its travel: the climb follows
     #[arg(long, value_name = "PERCENT", conflicts_with = "climb_fpm")]
-    #[arg(value_parser = between(0.0, 100.0, "%"), allow_negative_numbers = true)]
+    #[arg(value_parser = within(limits::LEVER_PERCENT, "%"), allow_negative_numbers = true)]
     pub lever: Option<f64>,
     /// Rate of turn, right positive, deg/s
     #[arg(long, value_name = "DEGPS", default_value_t = 0.0)]
-    #[arg(value_parser = between(-90.0, 90.0, "deg/s"), allow_negative_numbers = true)]
+    #[arg(value_parser = within(limits::TURN_DEGPS, "deg/s"), allow_negative_numbers = true)]
     pub turn_degps: f64,
     /// Bank of a turn, right positive, deg; instead of its rate
     #[arg(long, value_name = "DEG", conflicts_with = "turn_degps")]
-    #[arg(value_parser = between(-75.0, 75.0, "deg"), allow_negative_numbers = true)]
+    #[arg(value_parser = within(limits::BANK_DEG, "deg"), allow_negative_numbers = true)]
     pub bank_deg: Option<f64>,
     /// Sideslip, air from the right positive, deg: 90 is flight to the right, 180 rearward
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
-    #[arg(value_parser = between(-180.0, 180.0, "deg"), allow_negative_numbers = true)]
+    #[arg(value_parser = within(limits::SIDESLIP_DEG, "deg"), allow_negative_numbers = true)]
     pub sideslip_deg: f64,
     /// Gross weight, lb
     #[arg(long, value_name = "LB", default_value_t = 13_000.0)]
-    #[arg(value_parser = between(2_500.0, 44_000.0, "lb"), allow_negative_numbers = true)]
+    #[arg(value_parser = within(limits::WEIGHT_LB, "lb"), allow_negative_numbers = true)]
     pub weight_lb: f64,
     /// Above mean sea level, ft
     #[arg(long, value_name = "FT", default_value_t = 0.0)]
@@ -50,11 +51,11 @@ pub struct Condition {
     pub altitude_ft: f64,
     /// Centre of gravity above the ground, ft (the ground is not felt without)
     #[arg(long, value_name = "FT")]
-    #[arg(value_parser = between(0.0, 60_000.0, "ft"), allow_negative_numbers = true)]
+    #[arg(value_parser = within(limits::HEIGHT_FT, "ft"), allow_negative_numbers = true)]
     pub height_ft: Option<f64>,
     /// Warmer than the standard atmosphere by, K
     #[arg(long, value_name = "K", default_value_t = 0.0)]
-    #[arg(value_parser = between(-80.0, 80.0, "K"), allow_negative_numbers = true)]
+    #[arg(value_parser = within(limits::ISA_K, "K"), allow_negative_numbers = true)]
     pub isa_k: f64,
     /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
     #[arg(long, value_name = "DEG")]

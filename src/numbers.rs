@@ -1,5 +1,7 @@
 //! Numbers of the command line: each has a range and a unit, and is refused with both.
 
+use analysis::condition::limits;
+
 /// Reads a number from `least` to `greatest` in that unit.
 pub fn between(
     least: f64,
@@ -12,37 +14,42 @@ pub fn between(
     }
 }
 
-/// True airspeeds, kt; backwards as far as helicopters fly so.
-pub const SPEED_KT: (f64, f64) = (-60.0, 400.0);
+/// The same of limits that are said elsewhere.
+pub fn within(
+    (least, greatest): (f64, f64),
+    unit: &'static str,
+) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    between(least, greatest, unit)
+}
 
 /// Reads a true airspeed.
 pub fn speed_kt(text: &str) -> Result<f64, String> {
-    between(SPEED_KT.0, SPEED_KT.1, "kt")(text)
+    within(limits::SPEED_KT, "kt")(text)
 }
 
-/// Reads a nacelle incidence; a degree beyond the stops, for trims at a stop.
+/// Reads a nacelle incidence.
 pub fn nacelle_deg(text: &str) -> Result<f64, String> {
-    between(-1.0, 96.0, "deg (0 aeroplane, 90 helicopter)")(text)
+    within(limits::NACELLE_DEG, "deg (0 aeroplane, 90 helicopter)")(text)
 }
 
-/// Reads a height above mean sea level, as far as there is air.
+/// Reads a height above mean sea level.
 pub fn altitude_ft(text: &str) -> Result<f64, String> {
-    between(-6_000.0, 60_000.0, "ft")(text)
+    within(limits::ALTITUDE_FT, "ft")(text)
 }
 
 /// Reads a rate of climb.
 pub fn climb_fpm(text: &str) -> Result<f64, String> {
-    between(-20_000.0, 20_000.0, "ft/min")(text)
+    within(limits::CLIMB_FPM, "ft/min")(text)
 }
 
 /// Reads a flap lever position.
 pub fn flap_deg(text: &str) -> Result<f64, String> {
-    between(0.0, 90.0, "deg")(text)
+    within(limits::FLAP_DEG, "deg")(text)
 }
 
 /// Reads a rotor speed.
 pub fn rotor_rpm(text: &str) -> Result<f64, String> {
-    between(0.0, 2_000.0, "rpm")(text)
+    within(limits::RPM, "rpm")(text)
 }
 
 /// Reads a whole number from `least` to `greatest`, of what is counted.

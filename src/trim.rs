@@ -8,7 +8,6 @@ use engine::units::KNOT_MPS;
 use logs::output;
 
 use crate::condition::{Condition, sweep};
-use crate::numbers;
 use crate::status::Status;
 
 /// Which steady flight, or flights.
@@ -31,7 +30,7 @@ struct Sweep(Vec<f64>);
 impl Sweep {
     fn parse(text: &str) -> Result<Self, String> {
         let speeds_kt = sweep(text)?;
-        let (least, greatest) = numbers::SPEED_KT;
+        let (least, greatest) = analysis::condition::limits::SPEED_KT;
         if speeds_kt.iter().all(|speed_kt| (least..=greatest).contains(speed_kt)) {
             Ok(Self(speeds_kt))
         } else {

@@ -86,22 +86,50 @@ const fn range(
     Range { name, unit, least, greatest, of }
 }
 
-/// Nacelles: a degree beyond the stops, for trims at a stop. Backwards: as far as helicopters fly so.
-/// Altitude: as far as there is air.
+/// The least and the greatest of each number that is asked for.
+pub mod limits {
+    /// Nacelle incidence, deg: a degree beyond the stops, for trims at a stop.
+    pub const NACELLE_DEG: (f64, f64) = (-1.0, 96.0);
+    /// True airspeed, kt: backwards as far as helicopters fly so.
+    pub const SPEED_KT: (f64, f64) = (-60.0, 400.0);
+    /// Rate of climb, ft/min.
+    pub const CLIMB_FPM: (f64, f64) = (-20_000.0, 20_000.0);
+    /// Power lever, % of its travel.
+    pub const LEVER_PERCENT: (f64, f64) = (0.0, 100.0);
+    /// Rate of turn, deg/s.
+    pub const TURN_DEGPS: (f64, f64) = (-90.0, 90.0);
+    /// Bank of a turn, deg.
+    pub const BANK_DEG: (f64, f64) = (-75.0, 75.0);
+    /// Sideslip, deg.
+    pub const SIDESLIP_DEG: (f64, f64) = (-180.0, 180.0);
+    /// Gross weight, lb.
+    pub const WEIGHT_LB: (f64, f64) = (2_500.0, 44_000.0);
+    /// Above mean sea level, ft: as far as there is air.
+    pub const ALTITUDE_FT: (f64, f64) = (-6_000.0, 60_000.0);
+    /// Centre of gravity above the ground, ft.
+    pub const HEIGHT_FT: (f64, f64) = (0.0, 60_000.0);
+    /// Warmer than the standard atmosphere by, K.
+    pub const ISA_K: (f64, f64) = (-80.0, 80.0);
+    /// Flap lever, deg.
+    pub const FLAP_DEG: (f64, f64) = (0.0, 90.0);
+    /// Rotor speed, rpm.
+    pub const RPM: (f64, f64) = (0.0, 2_000.0);
+}
+
 const RANGES: [Range; 13] = [
-    range("nacelle_deg", "deg", (-1.0, 96.0), |c| Some(c.nacelle_deg)),
-    range("speed_kt", "kt", (-60.0, 400.0), |c| Some(c.speed_kt)),
-    range("climb_fpm", "ft/min", (-20_000.0, 20_000.0), |c| Some(c.climb_fpm)),
-    range("lever_percent", "%", (0.0, 100.0), |c| c.lever_percent),
-    range("turn_degps", "deg/s", (-90.0, 90.0), |c| Some(c.turn_degps)),
-    range("bank_deg", "deg", (-75.0, 75.0), |c| c.bank_deg),
-    range("sideslip_deg", "deg", (-180.0, 180.0), |c| Some(c.sideslip_deg)),
-    range("weight_lb", "lb", (2_500.0, 44_000.0), |c| Some(c.weight_lb)),
-    range("altitude_ft", "ft", (-6_000.0, 60_000.0), |c| Some(c.altitude_ft)),
-    range("height_ft", "ft", (0.0, 60_000.0), |c| c.height_ft),
-    range("isa_k", "K", (-80.0, 80.0), |c| Some(c.isa_k)),
-    range("flap_deg", "deg", (0.0, 90.0), |c| c.flap_deg),
-    range("rpm", "rpm", (0.0, 2_000.0), |c| c.rpm),
+    range("nacelle_deg", "deg", limits::NACELLE_DEG, |c| Some(c.nacelle_deg)),
+    range("speed_kt", "kt", limits::SPEED_KT, |c| Some(c.speed_kt)),
+    range("climb_fpm", "ft/min", limits::CLIMB_FPM, |c| Some(c.climb_fpm)),
+    range("lever_percent", "%", limits::LEVER_PERCENT, |c| c.lever_percent),
+    range("turn_degps", "deg/s", limits::TURN_DEGPS, |c| Some(c.turn_degps)),
+    range("bank_deg", "deg", limits::BANK_DEG, |c| c.bank_deg),
+    range("sideslip_deg", "deg", limits::SIDESLIP_DEG, |c| Some(c.sideslip_deg)),
+    range("weight_lb", "lb", limits::WEIGHT_LB, |c| Some(c.weight_lb)),
+    range("altitude_ft", "ft", limits::ALTITUDE_FT, |c| Some(c.altitude_ft)),
+    range("height_ft", "ft", limits::HEIGHT_FT, |c| c.height_ft),
+    range("isa_k", "K", limits::ISA_K, |c| Some(c.isa_k)),
+    range("flap_deg", "deg", limits::FLAP_DEG, |c| c.flap_deg),
+    range("rpm", "rpm", limits::RPM, |c| c.rpm),
 ];
 
 /// Why nothing flies so.

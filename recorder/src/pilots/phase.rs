@@ -506,10 +506,11 @@ fn one_engine_is_out(seen: &Outputs) -> bool {
 /// 40 as a helicopter, 20 in conversion and as a slow aeroplane, 0 as a fast one.
 fn flap_detent(order: &Order, tilt_rad: f64, now: u64) -> u64 {
     let incidence_deg = 90.0 - tilt_rad.to_degrees();
-    // Up late and down early, as the handbook has it.
+    // Flaps 20 all the way down: our choice, the source does not tell them.
     if order.nacelles == Nacelles::Autorotation {
         return 1;
     }
+    // Up late and down early, as the handbook has it.
     let helicopter_deg = if order.nacelles == Nacelles::Aft { 60.0 } else { 75.0 };
     if incidence_deg > helicopter_deg {
         2

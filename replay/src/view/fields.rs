@@ -4,19 +4,7 @@ use rerun::{RecordingStream, RecordingStreamResult, Scalars, SeriesLines};
 
 use super::canvas::{Canvas, times};
 use super::field::{Channel, Field};
-use super::look::Look;
-
-/// Colours of the lines of a view, in the order of its fields.
-const COLOURS: [u32; 8] = [
-    0xF5_A0_3C_FF,
-    0x5B_A8_F5_FF,
-    0xB6_8C_F0_FF,
-    0xE6_E6_E6_FF,
-    0x3F_B9_5A_FF,
-    0xF0_DC_50_FF,
-    0x48_D0_D0_FF,
-    0xE0_4A_3F_FF,
-];
+use super::look::{COLOURS, Look};
 
 /// Sends names and colours: of each field its place in its view decides.
 pub fn send_still(

@@ -1,5 +1,17 @@
 //! How a flight is told from another one in the same recording.
 
+/// Colours of lines that no side has: fields of a view in their order, axes in the order in which they move.
+pub const COLOURS: [u32; 8] = [
+    0xF5_A0_3C_FF,
+    0x5B_A8_F5_FF,
+    0xB6_8C_F0_FF,
+    0xE6_E6_E6_FF,
+    0x3F_B9_5A_FF,
+    0xF0_DC_50_FF,
+    0x48_D0_D0_FF,
+    0xE0_4A_3F_FF,
+];
+
 /// How a flight is told from another one in the same recording.
 #[derive(Clone, Debug)]
 pub struct Look {

@@ -7,20 +7,8 @@ use rerun::components::InterpolationMode;
 use rerun::{Scalars, SeriesLines};
 
 use super::canvas::{Canvas, times};
-use super::look::Look;
+use super::look::{COLOURS, Look};
 use super::parts::RAW;
-
-/// Colours of the axes, in the order in which they move.
-const COLOURS: [u32; 8] = [
-    0xF5_A0_3C_FF,
-    0x5B_A8_F5_FF,
-    0xB6_8C_F0_FF,
-    0xE6_E6_E6_FF,
-    0x3F_B9_5A_FF,
-    0xF0_DC_50_FF,
-    0x48_D0_D0_FF,
-    0xE0_4A_3F_FF,
-];
 
 /// Axes that have moved, and how since the last time that they were written.
 #[derive(Default)]
