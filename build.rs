@@ -24,6 +24,9 @@ const SOURCES: [&str; 12] = [
 /// What the Python package is built from beside them.
 const SOURCES_OF_PYTHON: [&str; 3] = ["python/Cargo.lock", "python/Cargo.toml", "python/src"];
 
+/// What the FMU is built from beside them.
+const SOURCES_OF_FMI: [&str; 3] = ["fmi/Cargo.lock", "fmi/Cargo.toml", "fmi/src"];
+
 /// Tells which of them are not as committed.
 const STATUS: [&str; 5] =
     ["--no-optional-locks", "status", "--porcelain", "--untracked-files=no", "--"];
@@ -115,8 +118,10 @@ fn main() {
     let entered = env::set_current_dir(&root);
     assert!(entered.is_ok(), "{}: {entered:?}", root.display());
     let mut sources = SOURCES.to_vec();
-    if env::var("CARGO_PKG_NAME").is_ok_and(|name| name == "tiltrotor-python") {
-        sources.extend(SOURCES_OF_PYTHON);
+    match env::var("CARGO_PKG_NAME").as_deref() {
+        Ok("tiltrotor-python") => sources.extend(SOURCES_OF_PYTHON),
+        Ok("tiltrotor-fmi") => sources.extend(SOURCES_OF_FMI),
+        _ => {}
     }
     describe();
     let unknown = || "unknown".to_string();

@@ -11,7 +11,7 @@ mod tree;
 use tree::{manifest, root};
 
 /// Folders with a workspace and a lock file of their own.
-const OTHERS: &[&str] = &["python"];
+const OTHERS: &[&str] = &["fmi", "python"];
 
 /// Packages without which there are no flight and no log: a lock file that lacks them is none of ours.
 const AT_LEAST: &[&str] = &[
