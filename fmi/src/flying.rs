@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use analysis::condition::Condition;
 use engine::cockpit::AxisControl;
-use engine::frames::Vec3;
 use engine::inputs::{Failures, InputLevel, World};
 use engine::{Aircraft, observe};
 use logs::fields::{Value as Number, fields};

@@ -1,7 +1,12 @@
 //! The C functions of FMI 2.0 for co-simulation.
 //!
 //! `fmi2Boolean` is an `int`, `fmi2Real` a `double`. What the description does not announce is refused in words.
-#![allow(unsafe_code, reason = "a C interface")]
+#![allow(
+    unsafe_code,
+    non_snake_case,
+    clippy::too_many_arguments,
+    reason = "a C interface, as FMI names it"
+)]
 
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 
@@ -16,9 +21,9 @@ use crate::variables::Value;
 pub struct Callbacks {
     logger: Option<Logger2>,
     // Memory is our own, and steps are not asynchronous.
-    allocate_memory: *const c_void,
-    free_memory: *const c_void,
-    step_finished: *const c_void,
+    _allocate_memory: *const c_void,
+    _free_memory: *const c_void,
+    _step_finished: *const c_void,
     environment: *mut c_void,
 }
 
@@ -243,7 +248,8 @@ unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut c_v
 unsafe extern "C" fn fmi2SetFMUstate(instance: *mut c_void, state: *mut c_void) -> c_int {
     call(instance, |handle| {
         // SAFETY: null, or what fmi2GetFMUstate gave.
-        let copied = unsafe { state.cast::<Copied>().as_ref() }.ok_or("FMU state: a null pointer")?;
+        let copied =
+            unsafe { state.cast::<Copied>().as_ref() }.ok_or("FMU state: a null pointer")?;
         handle.instance.go_to(copied)
     })
 }
@@ -315,4 +321,3 @@ refused! {
     fmi2GetIntegerStatus: "there is none"
     fmi2GetStringStatus: "there is none"
 }
-

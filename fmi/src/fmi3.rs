@@ -2,7 +2,12 @@
 //!
 //! `fmi3Boolean` is a `bool`, read as a byte: C may have any bits in it. What the description does not announce
 //! is refused in words.
-#![allow(unsafe_code, reason = "a C interface")]
+#![allow(
+    unsafe_code,
+    non_snake_case,
+    clippy::too_many_arguments,
+    reason = "a C interface, as FMI names it"
+)]
 
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 
@@ -169,7 +174,9 @@ fn as_many(references: usize, values: usize) -> Result<(), String> {
     if references == values {
         return Ok(());
     }
-    Err(format!("{references} value references and {values} values: expected as many, there are no arrays"))
+    Err(format!(
+        "{references} value references and {values} values: expected as many, there are no arrays"
+    ))
 }
 
 #[unsafe(no_mangle)]
@@ -306,7 +313,8 @@ unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_v
 unsafe extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> c_int {
     call(instance, |handle| {
         // SAFETY: null, or what fmi3GetFMUState gave.
-        let copied = unsafe { state.cast::<Copied>().as_ref() }.ok_or("FMU state: a null pointer")?;
+        let copied =
+            unsafe { state.cast::<Copied>().as_ref() }.ok_or("FMU state: a null pointer")?;
         handle.instance.go_to(copied)
     })
 }

@@ -21,14 +21,8 @@ pub const FATAL: c_int = 4;
 const CATEGORY: &CStr = c"error";
 
 /// `fmi2CallbackLogger`.
-pub type Logger2 = unsafe extern "C" fn(
-    *mut c_void,
-    *const c_char,
-    c_int,
-    *const c_char,
-    *const c_char,
-    ...
-);
+pub type Logger2 =
+    unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
 
 /// `fmi3LogMessageCallback`.
 pub type Logger3 = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
@@ -104,10 +98,7 @@ pub fn instantiate(teller: Teller, token: Option<&str>) -> *mut c_void {
 }
 
 /// Does something with an instance; what is refused is told in words, what panics ends the instance.
-pub fn call(
-    pointer: *mut c_void,
-    work: impl FnOnce(&mut Handle) -> Result<(), String>,
-) -> c_int {
+pub fn call(pointer: *mut c_void, work: impl FnOnce(&mut Handle) -> Result<(), String>) -> c_int {
     // SAFETY: null, or what `instantiate` gave and `free` has not taken back; FMI lets tools make one call
     // at a time on an instance.
     let Some(handle) = (unsafe { pointer.cast::<Handle>().as_mut() }) else { return ERROR };
@@ -123,7 +114,8 @@ pub fn call(
         }
         Err(panic) => {
             handle.broken = true;
-            let words = format!("this is a fault of tiltrotor's, please report it: {}", said(&*panic));
+            let words =
+                format!("this is a fault of tiltrotor's, please report it: {}", said(&*panic));
             handle.teller.tell(FATAL, &words);
             FATAL
         }

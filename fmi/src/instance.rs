@@ -125,7 +125,9 @@ impl Instance {
     /// When it was there already.
     pub fn enter_initialization(&mut self) -> Result<(), String> {
         if self.phase != Phase::Instantiated {
-            return Err("initialization mode: it was entered already; reset the instance first".into());
+            return Err(
+                "initialization mode: it was entered already; reset the instance first".into()
+            );
         }
         self.phase = Phase::Initializing;
         Ok(())
@@ -236,7 +238,10 @@ impl Instance {
 
     fn output(&mut self, variable: &Variable, output: usize) -> Result<f64, String> {
         if self.phase == Phase::Instantiated {
-            return Err(format!("{}: outputs are there from the initialization mode on", variable.name));
+            return Err(format!(
+                "{}: outputs are there from the initialization mode on",
+                variable.name
+            ));
         }
         if self.outputs.is_none() {
             self.outputs = Some(cdr::encode(&self.begun()?.stepped.outputs).map_err(told)?);
@@ -302,8 +307,14 @@ impl Instance {
         if let Value::Real(number) = value
             && !number.is_finite()
         {
-            let unit = if variable.unit.is_empty() { String::new() } else { format!(" {}", variable.unit) };
-            return Err(format!("{name}: expected a finite number, got {number}{unit}; it stays as it was"));
+            let unit = if variable.unit.is_empty() {
+                String::new()
+            } else {
+                format!(" {}", variable.unit)
+            };
+            return Err(format!(
+                "{name}: expected a finite number, got {number}{unit}; it stays as it was"
+            ));
         }
         if let Some(place) = self.values.0.get_mut(reference as usize) {
             *place = value;

@@ -52,7 +52,11 @@ pub fn base_unit(name: &str) -> Option<BaseUnit> {
                 for (power, more) in found.powers.iter_mut().zip(base.powers) {
                     *power += if place == 0 { more } else { -more };
                 }
-                found.factor *= if place == 0 { base.factor } else { 1.0 / base.factor };
+                found.factor = if place == 0 {
+                    found.factor * base.factor
+                } else {
+                    found.factor / base.factor
+                };
             }
         }
     }

@@ -85,18 +85,33 @@ pub struct Variable {
 const REALS: [(&str, &str, f64, &str); 14] = [
     ("nacelle_deg", "deg", 90.0, "Nacelle incidence at the start: 90 helicopter, 0 aeroplane"),
     ("speed_kt", "kt", 0.0, "True airspeed at the start"),
-    ("altitude_ft", "ft", 1000.0, "Altitude above mean sea level at the start; the ground is at 44 ft"),
+    (
+        "altitude_ft",
+        "ft",
+        1000.0,
+        "Altitude above mean sea level at the start; the ground is at 44 ft",
+    ),
     ("climb_fpm", "ft/min", 0.0, "Rate of climb at the start"),
     ("heading_deg", "deg", 270.0, "True heading at the start"),
     ("fuel_lb", "lb", 1475.0, "Fuel aboard at the start"),
     ("wind_kt", "kt", 0.0, "Speed of the steady wind"),
     ("wind_from_deg", "deg", 0.0, "True direction from which the wind blows"),
-    ("wind_roughness_m", "m", 0.0, "Roughness length of the ground; 0: the same wind at every height"),
+    (
+        "wind_roughness_m",
+        "m",
+        0.0,
+        "Roughness length of the ground; 0: the same wind at every height",
+    ),
     ("turbulence_mps", "m/s", 0.0, "Vertical intensity of the turbulence; 0: still air"),
     ("turbulence_seed", "", 0.0, "Seed of the turbulence, a whole number"),
     ("temperature_offset_k", "K", 0.0, "Warmer than the standard atmosphere by"),
     ("pressure_offset_pa", "Pa", 0.0, "Sea-level pressure above the standard one by"),
-    ("flap_detent", "", -1.0, "Flap lever's detent at the start, 0 to 3; -1: the usual one for the nacelles"),
+    (
+        "flap_detent",
+        "",
+        -1.0,
+        "Flap lever's detent at the start, 0 to 3; -1: the usual one for the nacelles",
+    ),
 ];
 
 const FLAGS: [(&str, bool, &str); 4] = [
@@ -145,7 +160,8 @@ pub fn table() -> &'static [Variable] {
 /// Places in the table by name.
 pub fn place(name: &str) -> Option<usize> {
     static PLACES: OnceLock<BTreeMap<&'static str, usize>> = OnceLock::new();
-    let by_name = || table().iter().enumerate().map(|(place, v)| (v.name.as_str(), place)).collect();
+    let by_name =
+        || table().iter().enumerate().map(|(place, v)| (v.name.as_str(), place)).collect();
     PLACES.get_or_init(by_name).get(name).copied()
 }
 
@@ -214,7 +230,8 @@ fn inputs(table: &mut Vec<Variable>) {
         let target = Target::Failure(facts.flag);
         add(name, target, "", Value::Boolean(false), facts.description.into());
     }
-    let description = "Whether the actuators obey the `drive` inputs in place of the aircraft's own computer";
+    let description =
+        "Whether the actuators obey the `drive` inputs in place of the aircraft's own computer";
     add("drive_actuators".into(), Target::Drive, "", Value::Boolean(false), description.into());
     for (place, field) in fields(&Commands::default()).into_iter().flatten().enumerate() {
         let name = format!("drive.{}", field.path);
