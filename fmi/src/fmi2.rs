@@ -1,12 +1,8 @@
 //! The C functions of FMI 2.0 for co-simulation.
 //!
 //! `fmi2Boolean` is an `int`, `fmi2Real` a `double`. What the description does not announce is refused in words.
-#![allow(
-    unsafe_code,
-    non_snake_case,
-    clippy::too_many_arguments,
-    reason = "a C interface, as FMI names it"
-)]
+#![allow(unsafe_code, reason = "a C interface")]
+#![allow(non_snake_case, clippy::too_many_arguments, reason = "as FMI has them")]
 
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 

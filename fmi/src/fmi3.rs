@@ -2,12 +2,8 @@
 //!
 //! `fmi3Boolean` is a `bool`, read as a byte: C may have any bits in it. What the description does not announce
 //! is refused in words.
-#![allow(
-    unsafe_code,
-    non_snake_case,
-    clippy::too_many_arguments,
-    reason = "a C interface, as FMI names it"
-)]
+#![allow(unsafe_code, reason = "a C interface")]
+#![allow(non_snake_case, clippy::too_many_arguments, reason = "as FMI has them")]
 
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 
