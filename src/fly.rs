@@ -1,6 +1,7 @@
 //! `tiltrotor fly`.
 
 mod hardware;
+mod live;
 
 use std::fs;
 use std::io::IsTerminal;
@@ -35,6 +36,7 @@ use crate::panel::{Cockpit, Panel};
 use crate::status::Status;
 use crate::texts::{name_of, read, text_or};
 use crate::{controls, identity, numbers, report};
+use live::{Live, beside};
 
 /// What flies, from where, and where it is recorded.
 #[derive(clap::Args)]
@@ -94,6 +96,8 @@ pub struct Args {
     /// Refly each second on a spare thread while flying, and warn when a bit is not the same
     #[arg(long)]
     self_check: bool,
+    #[command(flatten)]
+    live: live::LiveArgs,
 }
 
 /// The steady flight in which a flight begins.
@@ -171,7 +175,9 @@ pub fn run(args: &Args) -> Result<Status> {
     if args.controls {
         return say_controls(args);
     }
+    let live = Live::wanted(&args.live)?;
     let mut plan = Plan::new(&args.common, args.start.as_deref())?;
+    plan.live = live;
     plan.keep_time(args);
     if let Some(file) = &args.situation {
         plan.flight.situation = Some(situation::load(file, &plan.flight.aircraft.name)?);
@@ -229,6 +235,7 @@ pub fn run(args: &Args) -> Result<Status> {
         bail!("the {name} pilot never lands: give --duration SECONDS with --fast");
     }
     let _linked = plan.connect()?;
+    plan.live.as_mut().map_or(Ok(()), Live::begin)?;
     let mut landing = plan.fly()?;
     report::landing(&landing, real_time, &args.common.out.display().to_string());
     args.common.hold(&mut landing)?;
@@ -256,6 +263,8 @@ pub struct Plan {
     panel: bool,
     /// Where its pictures go.
     pub linked: Option<Linked>,
+    /// In which viewer it is shown.
+    live: Option<Live>,
     /// Whose ground.
     ground: Whose,
 }
@@ -307,6 +316,7 @@ impl Plan {
             orders: None,
             panel: false,
             linked,
+            live: None,
             ground: if wants_ground { common.ground } else { Whose::Flat },
             flight: Flight {
                 aircraft,
@@ -457,35 +467,40 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, crew, .. } = self;
+        let Self { flight, pipe: _pipe, phases, crew, live, .. } = self;
         let real_time = flight.real_time.is_some();
-        let landing = thread::scope(|scope| {
-            let flying = scope.spawn(|| fly(flight, &progress));
-            let mut told = Snapshot::default();
-            let mut punctual = Punctual::default();
-            while !flying.is_finished() {
-                thread::sleep(Duration::from_millis(100));
-                let now = progress.now();
-                if let Some(warning) = progress.shown().and_then(|shown| punctual.look(&shown)) {
-                    bar.suspend(|| complain!("WARNING: {warning}"));
+        let live = live.map(|live| live.ready(&flight, &progress));
+        let flown = || {
+            thread::scope(|scope| {
+                let flying = scope.spawn(|| fly(flight, &progress));
+                let mut told = Snapshot::default();
+                let mut punctual = Punctual::default();
+                while !flying.is_finished() {
+                    thread::sleep(Duration::from_millis(100));
+                    let now = progress.now();
+                    if let Some(warning) = progress.shown().and_then(|shown| punctual.look(&shown))
+                    {
+                        bar.suspend(|| complain!("WARNING: {warning}"));
+                    }
+                    bar.set_message(line(&now, &phases));
+                    bar.tick();
+                    // As fast as it goes, nobody could act on it.
+                    for event in progress.told().iter().filter(|event| real_time && is_new(event)) {
+                        let at_s = event.tick as f64 * STEP_S;
+                        bar.suspend(|| complain!("{at_s:.1} s: {}", event.words));
+                    }
+                    for warning in warnings(&told, &now) {
+                        bar.suspend(|| complain!("WARNING: {warning}"));
+                    }
+                    for line in crew.lines(&told, &now) {
+                        bar.suspend(|| complain!("{line}"));
+                    }
+                    told = now;
                 }
-                bar.set_message(line(&now, &phases));
-                bar.tick();
-                // As fast as it goes, nobody could act on it.
-                for event in progress.told().iter().filter(|event| real_time && is_new(event)) {
-                    let at_s = event.tick as f64 * STEP_S;
-                    bar.suspend(|| complain!("{at_s:.1} s: {}", event.words));
-                }
-                for warning in warnings(&told, &now) {
-                    bar.suspend(|| complain!("WARNING: {warning}"));
-                }
-                for line in crew.lines(&told, &now) {
-                    bar.suspend(|| complain!("{line}"));
-                }
-                told = now;
-            }
-            flying.join()
-        });
+                flying.join()
+            })
+        };
+        let landing = beside(live, &progress, flown);
         bar.finish_and_clear();
         let landing = landing.map_err(|_| anyhow::anyhow!("the flight died of a fault of ours"))?;
         Ok(landing?)
@@ -497,7 +512,8 @@ impl Plan {
     fn fly_with_panel(self) -> Result<Landing> {
         let progress = Progress::default();
         progress.stop_on_signals()?;
-        let Self { flight, pipe: _pipe, phases, orders, crew, .. } = self;
+        let Self { flight, pipe: _pipe, phases, orders, crew, live, .. } = self;
+        let live = live.map(|live| live.ready(&flight, &progress));
         let verdict = flight
             .real_time
             .map_or_else(String::new, |wanted| check_clock(wanted, CLOCK_CHECK).verdict());
@@ -521,15 +537,18 @@ impl Plan {
                 Some(reposition(name, text, &aircraft))
             }),
         };
-        let (landing, told) = thread::scope(|scope| {
-            let flying = scope.spawn(|| fly(flight, &progress));
-            let told = panel.show(&progress, || !flying.is_finished());
-            if told.is_err() {
-                // Without its panel a flight by hand cannot go on.
-                progress.stop.store(true, Ordering::Relaxed);
-            }
-            (flying.join(), told)
-        });
+        let flown = || {
+            thread::scope(|scope| {
+                let flying = scope.spawn(|| fly(flight, &progress));
+                let told = panel.show(&progress, || !flying.is_finished());
+                if told.is_err() {
+                    // Without its panel a flight by hand cannot go on.
+                    progress.stop.store(true, Ordering::Relaxed);
+                }
+                (flying.join(), told)
+            })
+        };
+        let (landing, told) = beside(live, &progress, flown);
         for told in told? {
             complain!("{:.1} s: {}", told.tick as f64 * STEP_S, told.words);
         }

@@ -12,9 +12,11 @@ mod viewer;
 
 pub use args::Args;
 #[cfg(feature = "rerun")]
-pub use draw::save_default;
+pub use draw::{layout, save_default};
 #[cfg(feature = "rerun")]
 pub use open::run;
+#[cfg(feature = "rerun")]
+pub use viewer::Viewer;
 
 /// Says what is missing.
 #[cfg(not(feature = "rerun"))]

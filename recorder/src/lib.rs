@@ -37,7 +37,7 @@ pub use flight::{Flight, FlyError};
 pub use hands::{GaveUp, Hands, Reach};
 pub use landing::Landing;
 pub use live::fly;
-pub use platform::open_pipe;
+pub use platform::{open_pipe, step_aside};
 pub use progress::{Progress, Shown, Snapshot, Told};
 pub use rehearsal::{RehearsedTick, rehearse};
 pub use restart::{Restart, Situation};

@@ -151,12 +151,10 @@ where
             writer.device(&DeviceIdentity { tick: state.tick, ..device.clone() })?;
         }
         output.begun()?;
-        let (say, said) = mpsc::channel();
+        let say = progress.listen();
         writer.tell(Box::new(move |tick, what, level, words| {
-            // Nobody may listen.
-            let _ = say.send(Told { tick, what, level, words: words.into() });
+            say(&Told { tick, what, level, words: words.into() });
         }));
-        progress.listen(said);
         let (tell, told) = mpsc::channel();
         #[cfg(feature = "sticks")]
         let later = flight.sticks.as_mut().and_then(|sticks| sticks.later.take());

@@ -14,7 +14,11 @@ mod unix;
 mod without_unix;
 
 #[cfg(target_os = "linux")]
+pub use linux::step_aside;
+#[cfg(target_os = "linux")]
 pub(crate) use linux::{claim_real_time, now_ns, sleep_until};
+#[cfg(not(target_os = "linux"))]
+pub use portable::step_aside;
 #[cfg(not(target_os = "linux"))]
 pub(crate) use portable::{claim_real_time, now_ns, sleep_until};
 #[cfg(unix)]

@@ -1,7 +1,7 @@
 //! Where a flight is while it is flown, for whoever shows it, and the word that it should end.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::mpsc::Receiver;
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use engine::Outputs;
@@ -44,6 +44,11 @@ pub struct Shown {
     /// From an input's time in the kernel to the picture: the greatest within the last second, ns; 0
     /// without one.
     pub latency_ns: u64,
+    /// How the latest of the ticks since the last look kept time; one with an input of hardware, a slip or an
+    /// overrun goes before others.
+    pub timing: TimingRecord,
+    /// It has been shown: the next tick begins anew.
+    timing_shown: bool,
     /// Of the second under way: lateness, latency, ticks.
     gathering: (u64, u64, u64),
 }
@@ -56,6 +61,14 @@ impl Shown {
     pub(crate) fn add(&mut self, timing: &TimingRecord) {
         self.overruns += timing.overrun;
         self.late_ns_max = self.late_ns_max.max(timing.late_ns);
+        let rank = |timing: &TimingRecord| {
+            let grave = timing.latency_ns > 0 || timing.slip_ns > 0 || timing.overrun > 0;
+            (grave, timing.late_ns)
+        };
+        if self.timing_shown || rank(timing) >= rank(&self.timing) {
+            self.timing = *timing;
+            self.timing_shown = false;
+        }
         let (late_ns, latency_ns, ticks) = &mut self.gathering;
         *late_ns = (*late_ns).max(timing.late_ns);
         *latency_ns = (*latency_ns).max(timing.latency_ns);
@@ -69,6 +82,7 @@ impl Shown {
     /// Takes what there is to be seen.
     pub(crate) fn of(&mut self, outputs: &Outputs, world: &World, debrief: &Debrief) {
         (self.outputs, self.world, self.debrief) = (*outputs, *world, *debrief);
+        self.timing_shown = true;
     }
 }
 
@@ -92,6 +106,8 @@ pub struct Progress {
     /// Neither side waits for the other.
     shown: Mutex<Shown>,
     told: Mutex<Option<Receiver<Told>>>,
+    /// Who listens beside whoever calls `told`.
+    beside: Mutex<Option<Sender<Told>>>,
     /// The last signal that came, by its place in [`ENDING`], from 1.
     signal: Arc<AtomicUsize>,
     pub(crate) mismatches: Arc<AtomicU64>,
@@ -185,9 +201,23 @@ impl Progress {
         told.iter().flat_map(Receiver::try_iter).collect()
     }
 
-    /// From where to take what is told in the log.
-    pub(crate) fn listen(&self, told: Receiver<Told>) {
-        *self.told.lock().unwrap_or_else(PoisonError::into_inner) = Some(told);
+    /// The same for another listener, who takes everything himself; to be called before the flight begins.
+    pub fn listen_beside(&self) -> Receiver<Told> {
+        let (say, said) = mpsc::channel();
+        *self.beside.lock().unwrap_or_else(PoisonError::into_inner) = Some(say);
+        said
+    }
+
+    /// Where to say what is told in the log. Nobody may listen.
+    pub(crate) fn listen(&self) -> impl Fn(&Told) + Send + use<> {
+        let (say, said) = mpsc::channel();
+        *self.told.lock().unwrap_or_else(PoisonError::into_inner) = Some(said);
+        let beside = self.beside.lock().unwrap_or_else(PoisonError::into_inner).take();
+        move |told| {
+            for say in [Some(&say), beside.as_ref()].into_iter().flatten() {
+                let _ = say.send(told.clone());
+            }
+        }
     }
 
     /// Written by the loop, if nobody is reading at this moment.

@@ -48,6 +48,8 @@ mod file;
 mod forces;
 mod largest;
 mod layout;
+mod link;
+pub mod live;
 mod look;
 mod modes;
 mod own;

@@ -54,8 +54,9 @@ pub enum Place {
 }
 
 impl At {
-    /// Its place in what is drawn of the log; refused when nothing is drawn there.
-    pub fn place(self, log: &Path, window: &Window) -> Result<Place> {
+    /// Its place in what is drawn of the log, and beside it of another one that has it so many ticks later;
+    /// refused when nothing is drawn there.
+    pub fn place(self, log: &Path, window: &Window, beside: Option<(&Path, i64)>) -> Result<Place> {
         let tick = match self {
             Self::FirstDifference => return Ok(Place::FirstDifference),
             Self::When(when) => when.tick(log).with_context(|| log.display().to_string())?,
@@ -70,6 +71,20 @@ impl At {
                 at(first),
                 at(last)
             );
+        }
+        if let Some((other, shift_ticks)) = beside {
+            let (first, last) = drawn(other, &Window::default())?;
+            let there = tick.checked_add_signed(shift_ticks);
+            if !there.is_some_and(|there| (first..=last).contains(&there)) {
+                let back = |tick: u64| at(tick.saturating_add_signed(shift_ticks.saturating_neg()));
+                bail!(
+                    "--at: {} is not in both; {} is laid beside it from {} to {}",
+                    at(tick),
+                    other.display(),
+                    back(first),
+                    back(last)
+                );
+            }
         }
         Ok(Place::Tick(tick))
     }

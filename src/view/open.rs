@@ -35,11 +35,12 @@ pub fn run(args: &Args) -> Result<Status> {
     if args.against.is_some() && window != Window::default() {
         bail!("--against shows whole flights; `tiltrotor log clip` makes logs of their parts");
     }
-    let place = at.map(|at| at.place(&args.log, &window)).transpose()?;
     let shift_ticks = match &args.against {
         Some(other) => align.shift_ticks(&args.log, other)?,
         None => 0,
     };
+    let beside = args.against.as_deref().map(|other| (other, shift_ticks));
+    let place = at.map(|at| at.place(&args.log, &window, beside)).transpose()?;
     let how = format!("{layout:?} {window:?} {shift_ticks}");
     let drawing = Drawing { stamp: draw::stamp(&inputs, &how)?, layout, window, shift_ticks };
     let mark = match standing(args, &saved, &drawing.stamp, &inputs)? {

@@ -2,13 +2,13 @@
 
 use std::fs::File;
 use std::io::{ErrorKind, Read, Seek, SeekFrom};
-use std::net::{Ipv4Addr, TcpListener};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use replay::view::control::{self, ControlError};
 
 /// Recordings of one version are for viewers of that version.
@@ -60,15 +60,7 @@ impl Viewer {
     pub fn show(&self, recording: &Path, tick: Option<u64>) -> Result<()> {
         // A viewer of one's own: another one that listens at the usual port would get the recording.
         let port = free_port().context("no free port for the viewer")?;
-        let mut heard = tempfile().context("no file for what the viewer says")?;
-        let mut child = Command::new(&self.program)
-            .args(["--bind", "127.0.0.1", "--port", &port.to_string()])
-            .arg(recording)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(heard.try_clone()?)
-            .spawn()
-            .with_context(|| format!("cannot start {}", self.program.display()))?;
+        let (mut child, mut heard) = self.start(port, Some(recording))?;
         let began = Instant::now();
         let alive = || matches!(child.try_wait(), Ok(None));
         let gone = tick.map(|tick| control::go_to(port, tick, OPENS, alive));
@@ -78,6 +70,43 @@ impl Viewer {
         }
         stands(&mut child, STANDS.saturating_sub(began.elapsed()))
             .with_context(|| last_words(&mut heard))
+    }
+}
+
+impl Viewer {
+    /// Opens it empty, and waits until it listens at this port.
+    pub fn listen(&self, port: u16) -> Result<()> {
+        let (mut child, mut heard) = self.start(port, None)?;
+        let began = Instant::now();
+        while TcpStream::connect((Ipv4Addr::LOCALHOST, port)).is_err() {
+            if let Some(ended) = child.try_wait()? {
+                return Err(anyhow!("the viewer ended before it listened, with {ended}"))
+                    .with_context(|| last_words(&mut heard));
+            }
+            if began.elapsed() > OPENS {
+                bail!("the viewer does not listen at port {port}; {}", last_words(&mut heard));
+            }
+            thread::sleep(LOOK);
+        }
+        Ok(())
+    }
+
+    /// Starts it, and keeps what it says.
+    fn start(&self, port: u16, recording: Option<&Path>) -> Result<(Child, File)> {
+        let heard = tempfile().context("no file for what the viewer says")?;
+        let mut command = Command::new(&self.program);
+        command
+            .args(["--bind", "127.0.0.1", "--port", &port.to_string()])
+            .args(recording)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(heard.try_clone()?);
+        // Ctrl-C ends a flight, and not the viewer.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let child =
+            command.spawn().with_context(|| format!("cannot start {}", self.program.display()))?;
+        Ok((child, heard))
     }
 }
 

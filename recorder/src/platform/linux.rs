@@ -35,6 +35,15 @@ fn stay_on(cpu: usize) -> Result<(), String> {
         .map_err(|error| format!("the loop does not stay on processor {cpu}: {error}"))
 }
 
+/// By how much whoever looks on stands behind the rest of the flight, in the system's steps of niceness.
+const ASIDE: i32 = 10;
+
+/// Has this thread, and those that it starts, stand behind the others of the flight.
+pub fn step_aside() {
+    // One that may not looks on as before.
+    let _ = rustix::process::setpriority_process(None, ASIDE);
+}
+
 /// Asks for real-time scheduling of this thread, memory that is never paged out, and the processor that
 /// is asked for; returns what was not granted, in words.
 pub(crate) fn claim_real_time(cpu: Option<usize>) -> Vec<String> {

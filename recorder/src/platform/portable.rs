@@ -20,6 +20,12 @@ pub(crate) fn sleep_until(until_ns: u64) {
     thread::sleep(Duration::from_nanos(until_ns.saturating_sub(now_ns())));
 }
 
+/// Has this thread stand behind the others of the flight.
+pub fn step_aside() {
+    // One that may not looks on as before.
+    let _ = set_current_thread_priority(ThreadPriority::Min);
+}
+
 /// Asks for the highest priority that a thread may have; returns what was not granted, in words.
 pub(crate) fn claim_real_time(cpu: Option<usize>) -> Vec<String> {
     let mut refused =

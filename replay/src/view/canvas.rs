@@ -20,6 +20,10 @@ use super::still::send_still_life;
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
 
+/// Editions of a layout: for a flight that never ends, and for one that is over.
+const BEGUN: u8 = 1;
+const OVER: u8 = 2;
+
 /// What a recording is called, and by what the viewer and we know it.
 #[derive(Clone, Debug, Default)]
 pub struct About {
@@ -62,7 +66,7 @@ impl Canvas {
         drawn
             .iter()
             .try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
-        blueprint::send(&recording, 1, (&layout, &plan), "", None)?;
+        blueprint::send(&recording, BEGUN, (&layout, &plan), "", None)?;
         Ok(Self { recording, span: None, layout, plan, error: None })
     }
 
@@ -89,7 +93,8 @@ impl Canvas {
 
     /// Sends the layout once more, fitted to the whole, under a name that says `mark`; the first error.
     pub fn end(mut self, mark: &str) -> (RecordingStream, Option<RecordingStreamError>) {
-        let sent = blueprint::send(&self.recording, 2, (&self.layout, &self.plan), mark, self.span);
+        let sent =
+            blueprint::send(&self.recording, OVER, (&self.layout, &self.plan), mark, self.span);
         self.keep(sent);
         (self.recording, self.error)
     }

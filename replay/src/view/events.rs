@@ -1,5 +1,7 @@
 //! What happened: a list, and a lane on the same time axis as everything else.
 
+use std::collections::BTreeSet;
+
 use engine::STEP_S;
 use rerun::{StateChange, StateConfiguration, TextLog};
 
@@ -21,6 +23,10 @@ const SEEN_NORM: f64 = 0.05;
 #[derive(Default)]
 pub struct Events {
     all: Vec<(u64, Severity, String)>,
+    /// While it is flown: changes of the lane that were written, by their ticks, and for how many events their
+    /// colours were.
+    written: BTreeSet<u64>,
+    coloured: usize,
 }
 
 fn colour(severity: Severity) -> u32 {
@@ -37,6 +43,11 @@ fn short(words: &str) -> &str {
 }
 
 impl Events {
+    /// Nothing was told.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
     /// Notes an event in the list, and for the lane.
     pub fn add(
         &mut self,
@@ -58,15 +69,29 @@ impl Events {
     /// Writes the lane.
     pub fn finish(&mut self, canvas: &mut Canvas, look: &Look) {
         let end = canvas.span.map_or(u64::MAX, |(_, last)| last);
-        let changes = lane(&mut self.all, end);
-        if changes.is_empty() {
+        let last = self.all.iter().map(|(tick, ..)| *tick).max().unwrap_or(0);
+        let seen = engine::math::max(SEEN_S / STEP_S, SEEN_NORM * last as f64) as u64;
+        let changes = lane(&mut self.all, end, seen);
+        write(canvas, look, &changes);
+        self.colour(canvas, look);
+    }
+
+    /// Writes what the lane shows up to now and did not before, while the flight goes on.
+    pub fn go_on(&mut self, canvas: &mut Canvas, look: &Look, now: u64) {
+        let mut changes = lane(&mut self.all, now, (SEEN_S / STEP_S) as u64);
+        changes.retain(|(tick, _)| *tick <= now && self.written.insert(*tick));
+        write(canvas, look, &changes);
+        if self.coloured < self.all.len() {
+            self.coloured = self.all.len();
+            self.colour(canvas, look);
+        }
+    }
+
+    /// Tells the colours of all words.
+    fn colour(&self, canvas: &mut Canvas, look: &Look) {
+        if self.all.is_empty() {
             return;
         }
-        let ticks: Vec<u64> = changes.iter().map(|(tick, _)| *tick).collect();
-        let words = changes.iter().map(|(_, words)| *words);
-        let columns =
-            StateChange::new().with_state(words).columns_of_unit_batches().map(Vec::from_iter);
-        canvas.send(&look.entity(LANE), &times(&ticks), columns);
         let mut known: Vec<(&str, u32)> = Vec::new();
         for (_, level, words) in &self.all {
             if !known.iter().any(|(known, _)| known == words) {
@@ -80,6 +105,18 @@ impl Events {
     }
 }
 
+/// Writes changes of the lane.
+fn write(canvas: &mut Canvas, look: &Look, changes: &[(u64, &str)]) {
+    if changes.is_empty() {
+        return;
+    }
+    let ticks: Vec<u64> = changes.iter().map(|(tick, _)| *tick).collect();
+    let words = changes.iter().map(|(_, words)| *words);
+    let columns =
+        StateChange::new().with_state(words).columns_of_unit_batches().map(Vec::from_iter);
+    canvas.send(&look.entity(LANE), &times(&ticks), columns);
+}
+
 fn gravity(severity: Severity) -> u8 {
     match severity {
         Severity::Error => 0,
@@ -88,12 +125,10 @@ fn gravity(severity: Severity) -> u8 {
     }
 }
 
-/// What the lane shows from when on, up to the end of the flight; nothing is an empty word. Of several at once
-/// the gravest is shown; the list has all.
-fn lane(all: &mut [(u64, Severity, String)], end: u64) -> Vec<(u64, &str)> {
+/// What the lane shows from when on, up to the end of the flight, each for so many ticks; nothing is an empty
+/// word. Of several at once the gravest is shown; the list has all.
+fn lane(all: &mut [(u64, Severity, String)], end: u64, seen: u64) -> Vec<(u64, &str)> {
     all.sort_by_key(|(tick, severity, _)| (*tick, gravity(*severity)));
-    let last = all.last().map_or(0, |(tick, ..)| *tick);
-    let seen = engine::math::max(SEEN_S / STEP_S, SEEN_NORM * last as f64) as u64;
     let mut changes: Vec<(u64, &str)> = Vec::new();
     for (number, (tick, _, words)) in all.iter().enumerate() {
         if number > 0 && all[number - 1].0 == *tick {
@@ -121,8 +156,7 @@ mod tests {
             (5100, Severity::Info, "touchdown".into()),
             (5100, Severity::Error, "impact".into()),
         ];
-        let changes = lane(&mut all, 6000);
-        // A twentieth of this short flight is less than what is seen at least.
+        let changes = lane(&mut all, 6000, 1000);
         let expected = [(0, "exact"), (1000, ""), (5000, "marker 1"), (5100, "impact")];
         assert_eq!(changes, expected);
         assert_eq!(short("lift-off, climbing 0.03 m/s"), "lift-off");

@@ -26,6 +26,8 @@ use super::still::send_path;
 
 /// Rows gathered before they are written: ten seconds, about a megabyte.
 const ROWS_PER_CHUNK: usize = 500;
+/// The same while it is flown, for the plots: five times in two seconds.
+const ROWS_PER_CHUNK_LIVE: usize = 10;
 /// Of this many rows one makes a piece of the flown line: 10 Hz.
 const ROWS_PER_PIECE: usize = 5;
 /// The path is thinned by half when it has more points than this.
@@ -61,7 +63,9 @@ pub struct Track {
     events: Events,
     trace: corridor::Trace,
     /// Rows between two writings.
-    pub rows_per_chunk: usize,
+    rows_per_chunk: usize,
+    /// While it is flown, what moves is written row by row, and the rest every few rows.
+    live: bool,
     /// The path.
     pub trail: Vec<PathPoint>,
     /// Least distance between its points.
@@ -86,9 +90,25 @@ impl Track {
             events: Events::default(),
             trace: corridor::Trace::new(),
             rows_per_chunk: ROWS_PER_CHUNK,
+            live: false,
             trail: Vec::new(),
             trail_spacing_m: 1.0,
         }
+    }
+
+    /// One that is drawn while it is flown.
+    pub fn live(look: Look, aircraft: &Aircraft, own: Vec<(usize, Field)>) -> Self {
+        Self { rows_per_chunk: ROWS_PER_CHUNK_LIVE, live: true, ..Self::new(look, aircraft, own) }
+    }
+
+    /// Whoever was told of it is gone: the next one begins with what is now, the path and the events.
+    pub fn forget(&mut self) {
+        self.rows.clear();
+        self.times.clear();
+        self.axes_told.clear();
+        self.flown_to_m = None;
+        self.modes.fill(None);
+        self.events.forget();
     }
 
     /// Sends what its own fields are called.
@@ -114,13 +134,22 @@ impl Track {
     /// Draws a row.
     pub fn draw(&mut self, canvas: &mut Canvas, outputs: &Outputs, world: &World) {
         canvas.reach(outputs.tick);
-        self.follow(outputs);
-        self.trace.add(outputs, &self.aircraft);
+        self.remember(outputs);
         self.show_modes(canvas, outputs, world);
         self.rows.push(*outputs);
+        if self.live {
+            self.send_motion(canvas, std::slice::from_ref(outputs));
+            self.events.go_on(canvas, &self.look, outputs.tick);
+        }
         if self.rows.len() >= self.rows_per_chunk {
             self.flush(canvas);
         }
+    }
+
+    /// Adds to the whole path.
+    pub fn remember(&mut self, outputs: &Outputs) {
+        self.follow(outputs);
+        self.trace.add(outputs, &self.aircraft);
     }
 
     /// Takes how a tick kept time: of those of a row the latest is drawn, and every one with an input of
@@ -158,7 +187,14 @@ impl Track {
     pub fn finish(&mut self, canvas: &mut Canvas) {
         self.flush(canvas);
         self.flush_times(canvas);
-        self.events.finish(canvas, &self.look);
+        if !self.live {
+            self.events.finish(canvas, &self.look);
+        }
+        self.send_whole(canvas);
+    }
+
+    /// Writes the whole path.
+    pub fn send_whole(&self, canvas: &mut Canvas) {
         let sent = send_path(&canvas.recording, &self.trail, &self.look);
         canvas.keep(sent);
         let sent = self.trace.send(&canvas.recording, &self.look);
@@ -200,18 +236,29 @@ impl Track {
         }
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
         let times = times(&ticks);
-        for (entity, columns) in moving_columns(&rows, &self.mounts, &self.places, self.look.ground)
-        {
-            canvas.send(&self.look.entity(entity), &times, columns);
+        if self.live {
+            self.flush_times(canvas);
+        } else {
+            self.send_motion(canvas, &rows);
         }
         send_graphs(canvas, &self.look, GRAPHS, &rows, &times);
-        canvas.send(&self.look.entity(corridor::NOW), &times, corridor::columns(&rows));
         if self.own.iter().any(|(_, field)| field.channel == Channel::Outputs) {
             let messages: Vec<Vec<u8>> =
                 rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
             fields::send(canvas, &self.look, &self.own, Channel::Outputs, &ticks, &messages);
         }
         self.send_flown(canvas, &rows);
+    }
+
+    /// Writes where and how it is in the rows.
+    fn send_motion(&self, canvas: &mut Canvas, rows: &[Outputs]) {
+        let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
+        let times = times(&ticks);
+        for (entity, columns) in moving_columns(rows, &self.mounts, &self.places, self.look.ground)
+        {
+            canvas.send(&self.look.entity(entity), &times, columns);
+        }
+        canvas.send(&self.look.entity(corridor::NOW), &times, corridor::columns(rows));
     }
 
     /// Writes the times gathered.

@@ -1,0 +1,174 @@
+//! A flight in a running viewer, while it is flown.
+//!
+//! What is seen of it is drawn as it is of a log, and goes out over a connection that may break: when a viewer is
+//! there again, it is told everything that does not move, the layout, the path so far and what happened. Nothing
+//! here waits for the viewer but the end, and that not for long.
+
+use std::time::{Duration, Instant};
+
+use engine::aircraft::Params as Aircraft;
+use logs::records::TimingRecord;
+
+use super::basics::Severity;
+use super::canvas::{About, Canvas};
+use super::layout::Layout;
+use super::link::{Link, Standing};
+use super::look::Look;
+use super::parts::Plan;
+use super::track::{Moment, Track};
+
+/// From one attempt to find a viewer to the next.
+pub const AGAIN: Duration = Duration::from_secs(1);
+/// What is under way at the end has arrived by then.
+const ARRIVES: Duration = Duration::from_secs(2);
+/// The path is sent again when the flight is longer by this many ticks, five seconds,
+const PATH_TICKS: u64 = 1250;
+/// or by this part of it.
+const PATH_PART: u64 = 20;
+/// So many events are told to a viewer that comes back.
+const EVENTS_MAX: usize = 1000;
+
+/// What came of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Rows that were sent.
+    pub rows: u64,
+    /// Rows that a viewer did not take in time.
+    pub dropped: u64,
+    /// Rows for which there was no viewer.
+    pub unseen: u64,
+    /// How often a viewer was found.
+    pub found: u64,
+    /// How often it was lost.
+    pub lost: u64,
+    /// Whether a viewer was there at the end and took everything.
+    pub complete: bool,
+}
+
+/// A flight that is shown while it is flown.
+pub struct LiveView {
+    place: String,
+    about: About,
+    layout: Layout,
+    aircraft: Aircraft,
+    track: Track,
+    events: Vec<(u64, Severity, String)>,
+    link: Option<Link>,
+    /// On the link, when that is open.
+    canvas: Option<Canvas>,
+    tried: Option<Instant>,
+    /// When the path is sent again.
+    path_tick: u64,
+    first_tick: Option<u64>,
+    tally: Tally,
+}
+
+impl LiveView {
+    /// For the viewer that listens at `place`, `HOST:PORT`, now or later.
+    pub fn new(place: &str, about: About, layout: Layout, aircraft: &Aircraft) -> Self {
+        Self {
+            place: place.into(),
+            about,
+            track: Track::live(Look::alone(), aircraft, layout.fields()),
+            layout,
+            aircraft: aircraft.clone(),
+            events: Vec::new(),
+            link: None,
+            canvas: None,
+            tried: None,
+            path_tick: 0,
+            first_tick: None,
+            tally: Tally::default(),
+        }
+    }
+
+    /// Looks whether there is a viewer, or still is one. Comes back at once.
+    pub fn look(&mut self) {
+        match self.link.as_ref().map(Link::standing) {
+            Some(Standing::Open) if self.canvas.is_none() => self.begin(),
+            Some(Standing::Gone) => {
+                self.link = None;
+                if self.canvas.take().is_some() {
+                    self.tally.lost += 1;
+                    self.track.forget();
+                }
+            }
+            None if self.tried.is_none_or(|tried| tried.elapsed() >= AGAIN) => {
+                self.tried = Some(Instant::now());
+                // Without a thread for it there is no viewer this time.
+                self.link = Link::open(&self.place).ok();
+            }
+            _ => {}
+        }
+    }
+
+    /// Takes what is seen now, and how the latest tick kept time. Comes back at once.
+    pub fn push(&mut self, seen: Moment, timing: &TimingRecord) {
+        self.look();
+        let tick = seen.outputs.tick;
+        let first_tick = *self.first_tick.get_or_insert(tick);
+        let (Some(canvas), Some(link)) = (&mut self.canvas, &self.link) else {
+            self.tally.unseen += 1;
+            self.track.remember(seen.outputs);
+            return;
+        };
+        if !link.has_room() {
+            self.tally.dropped += 1;
+            self.track.remember(seen.outputs);
+            return;
+        }
+        self.track.time(canvas, timing);
+        self.track.draw(canvas, seen.outputs, seen.world);
+        if tick >= self.path_tick {
+            self.track.send_whole(canvas);
+            let longer = tick.saturating_sub(first_tick) / PATH_PART;
+            self.path_tick = tick + PATH_TICKS.max(longer);
+        }
+        self.tally.rows += 1;
+    }
+
+    /// Notes an event.
+    pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
+        if let Some(canvas) = &mut self.canvas {
+            self.track.event(canvas, tick, level, text);
+        }
+        if self.events.len() >= EVENTS_MAX {
+            self.events.remove(0);
+        }
+        self.events.push((tick, level, text.into()));
+    }
+
+    /// Sends what is left, fits the layout to the whole flight, and says what came of it.
+    pub fn finish(mut self) -> Tally {
+        let (Some(mut canvas), Some(link)) = (self.canvas.take(), self.link.take()) else {
+            return self.tally;
+        };
+        self.track.finish(&mut canvas);
+        let (recording, error) = canvas.end("");
+        // Into the queue, which does not wait.
+        let flushed = recording.flush_blocking();
+        drop(recording);
+        let whole = error.is_none() && flushed.is_ok() && link.dropped() == 0;
+        self.tally.complete = link.close(ARRIVES) && whole;
+        self.tally
+    }
+
+    /// Tells a viewer that was found everything that is not told row by row.
+    fn begin(&mut self) {
+        let Some(link) = &self.link else { return };
+        let plan = (self.layout.clone(), Plan::new(&[&self.track.look.root]));
+        let drawn = [(&self.track.look, &self.aircraft)];
+        let begun = Canvas::begin(link.sink(), &self.about, plan, &drawn);
+        let Ok(mut canvas) = begun else {
+            self.link = None;
+            return;
+        };
+        self.track.begin(&mut canvas);
+        for (tick, level, text) in &self.events {
+            self.track.event(&mut canvas, *tick, *level, text);
+        }
+        self.path_tick = 0;
+        self.tally.found += 1;
+        self.canvas = Some(canvas);
+    }
+}
