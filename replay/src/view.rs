@@ -86,9 +86,10 @@ use track::Track;
 
 /// Draws a flight into an `.rrd` file while it is flown or reflown.
 ///
-/// Rows do not gather: ten seconds of them and a path that is thinned are in memory. What grows with the
-/// flight, by about 0.04 MB for each second (seen as the whole process's), comes from the drawing; probably it is
-/// rerun's index of the file, which has an entry for each chunk. The first error is kept and told by [`finish`](Self::finish), so that drawing
+/// Rows do not gather: those of a chunk and a path that is thinned are in memory, and rerun's index of the file,
+/// which is written at its end. That has a value in each of its columns, one for every component on every
+/// timeline, for every chunk (`RrdManifestBuilder`, 0.36.3): some kilobytes a chunk, .04 MB for a second of flight
+/// were chunks ten seconds long. So they grow with the root of the flight. The first error is kept and told by [`finish`](Self::finish), so that drawing
 /// never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
 /// the whole path.
 pub struct FlightView {

@@ -86,9 +86,6 @@ pub struct Drawn {
     pub judgements: Vec<Judgement>,
 }
 
-/// Rows of differences gathered before they are written.
-const ROWS_PER_CHUNK: usize = 500;
-
 /// What grows: entity, quantity of the state, colour.
 const GROWTH: [(&str, &str, u32); 5] = [
     ("position, m", "plant.position_m", 0xF5_A0_3C_FF),
@@ -283,7 +280,7 @@ impl Page {
             first,
             second,
             names: Names::of::<State>().map_err(ReplayError::from)?,
-            rows: Vec::with_capacity(ROWS_PER_CHUNK),
+            rows: Vec::new(),
             largest: Largest::default(),
             first_difference: None,
         })
@@ -319,7 +316,7 @@ impl Page {
             growth: self.growth(a.1, b.1)?,
             apart: [point(of_a.position_m), point(of_b.position_m)],
         });
-        if self.rows.len() >= ROWS_PER_CHUNK {
+        if self.rows.len() >= self.first.rows_per_chunk() {
             self.flush();
         }
         Ok(())

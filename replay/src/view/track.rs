@@ -24,8 +24,11 @@ use super::raw::Raw;
 use super::scene::{PathPoint, moving_columns};
 use super::still::send_path;
 
-/// Rows gathered before they are written: ten seconds, about a megabyte.
+/// Rows gathered before they are written, at first: ten seconds, about a megabyte.
 const ROWS_PER_CHUNK: usize = 500;
+/// Later, this by the root of all rows so far: both rows in memory and chunks, each of which rerun's index of the
+/// file keeps some kilobytes for, grow with the root of the flight.
+const ROWS_PER_CHUNK_ROOT: usize = 10;
 /// The same while it is flown, for the plots: five times in two seconds.
 const ROWS_PER_CHUNK_LIVE: usize = 10;
 /// Of this many rows one makes a piece of the flown line: 10 Hz.
@@ -62,8 +65,8 @@ pub struct Track {
     modes: Vec<Option<&'static str>>,
     events: Events,
     trace: corridor::Trace,
-    /// Rows between two writings.
-    rows_per_chunk: usize,
+    /// Rows drawn so far.
+    drawn: usize,
     /// While it is flown, what moves is written row by row, and the rest every few rows.
     live: bool,
     /// The path.
@@ -89,7 +92,7 @@ impl Track {
             modes: vec![None; MODES.len()],
             events: Events::default(),
             trace: corridor::Trace::new(),
-            rows_per_chunk: ROWS_PER_CHUNK,
+            drawn: 0,
             live: false,
             trail: Vec::new(),
             trail_spacing_m: 1.0,
@@ -98,7 +101,7 @@ impl Track {
 
     /// One that is drawn while it is flown.
     pub fn live(look: Look, aircraft: &Aircraft, own: Vec<(usize, Field)>) -> Self {
-        Self { rows_per_chunk: ROWS_PER_CHUNK_LIVE, live: true, ..Self::new(look, aircraft, own) }
+        Self { live: true, ..Self::new(look, aircraft, own) }
     }
 
     /// Whoever was told of it is gone: the next one begins with what is now, the path and the events.
@@ -126,6 +129,11 @@ impl Track {
         }
     }
 
+    /// Rows between two writings.
+    pub fn rows_per_chunk(&self) -> usize {
+        if self.live { ROWS_PER_CHUNK_LIVE } else { gathered(self.drawn) }
+    }
+
     /// Takes what devices said for a tick that is not drawn.
     pub fn say(&mut self, tick: u64, events: &[DeviceEvent]) {
         self.raw.add(tick, events);
@@ -137,11 +145,12 @@ impl Track {
         self.remember(outputs);
         self.show_modes(canvas, outputs, world);
         self.rows.push(*outputs);
+        self.drawn += 1;
         if self.live {
             self.send_motion(canvas, std::slice::from_ref(outputs));
             self.events.go_on(canvas, &self.look, outputs.tick);
         }
-        if self.rows.len() >= self.rows_per_chunk {
+        if self.rows.len() >= self.rows_per_chunk() {
             self.flush(canvas);
         }
     }
@@ -170,7 +179,7 @@ impl Track {
                 if last.tick / TICKS_PER_ROW == timing.tick / TICKS_PER_ROW && !grave(timing) => {}
             _ => {
                 // Only before a new row: the last one is not complete until then.
-                if self.times.len() >= ROWS_PER_CHUNK {
+                if self.times.len() >= self.rows_per_chunk() {
                     self.flush_times(canvas);
                 }
                 self.times.push(*timing);
@@ -230,7 +239,7 @@ impl Track {
     /// Writes the rows gathered.
     pub fn flush(&mut self, canvas: &mut Canvas) {
         self.raw.flush(canvas, &self.look, &mut self.axes_told);
-        let rows = std::mem::replace(&mut self.rows, Vec::with_capacity(self.rows_per_chunk));
+        let rows = std::mem::replace(&mut self.rows, Vec::with_capacity(self.rows_per_chunk()));
         if rows.is_empty() {
             return;
         }
@@ -295,6 +304,11 @@ impl Track {
     }
 }
 
+/// Rows to be gathered when so many are drawn.
+fn gathered(drawn: usize) -> usize {
+    ROWS_PER_CHUNK.max(ROWS_PER_CHUNK_ROOT * drawn.isqrt())
+}
+
 /// Writes rows of graphs: each as one entity with as many values in a row as it has lines.
 fn send_graphs<T>(
     canvas: &mut Canvas,
@@ -309,5 +323,35 @@ fn send_graphs<T>(
             .columns(std::iter::repeat_n(graph.lines.len(), rows.len()))
             .map(Vec::from_iter);
         canvas.send(&look.entity(graph.entity), times, columns);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chunks of an entity, and the rows of the longest one.
+    fn chunks(rows: usize) -> (usize, usize) {
+        let (mut count, mut waiting, mut longest) = (0, 0, 0);
+        for drawn in 1..=rows {
+            waiting += 1;
+            if waiting >= gathered(drawn) {
+                longest = longest.max(waiting);
+                (count, waiting) = (count + 1, 0);
+            }
+        }
+        (count, longest)
+    }
+
+    #[test]
+    fn chunks_and_rows_in_memory_grow_with_the_root_of_the_flight() {
+        const HOUR: usize = 180_000;
+        let (short, _) = chunks(HOUR / 4);
+        let (long, longest) = chunks(HOUR);
+        // Four times as long, twice as much; ten seconds each would be 360.
+        assert!(long <= 2 * short + 8 && long < 100, "{short}, {long}");
+        assert!(longest < 4300, "{longest}");
+        // A short one is in the viewer as it was.
+        assert_eq!(chunks(1500), (3, 500));
     }
 }
