@@ -18,9 +18,9 @@ pub struct LiveArgs {
 }
 
 #[cfg(feature = "rerun")]
-pub use with::{Live, Ready, beside};
+pub use with::{Live, beside};
 #[cfg(not(feature = "rerun"))]
-pub use without::{Live, Ready, beside};
+pub use without::{Live, beside};
 
 #[cfg(not(feature = "rerun"))]
 mod without {

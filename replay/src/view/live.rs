@@ -172,3 +172,45 @@ impl LiveView {
         self.canvas = Some(canvas);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Outputs;
+    use engine::inputs::World;
+    use std::net::{Ipv4Addr, TcpListener};
+
+    /// Half a second of rows for whoever listens there.
+    fn shown_at(place: &str) -> (Tally, usize, Duration) {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let about = About { title: "live".into(), recording_id: "live".into() };
+        let mut view = LiveView::new(place, about, Layout::Pilot, &xv15);
+        let mut longest = Duration::ZERO;
+        for row in 1..=25 {
+            let mut outputs = Outputs { tick: 10 * row, ..Outputs::default() };
+            outputs.position_m.x = 3.0 * row as f64;
+            let began = Instant::now();
+            let world = World::default();
+            let seen = Moment { outputs: &outputs, world: &world, events: &[] };
+            view.push(seen, &TimingRecord::default());
+            longest = longest.max(began.elapsed());
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let path = view.track.trail.len();
+        (view.finish(), path, longest)
+    }
+
+    #[test]
+    fn nobody_is_waited_for_and_the_path_is_kept_for_whoever_comes() {
+        let silent = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
+        let place = silent.local_addr().expect("bound").to_string();
+        let (told, path, longest) = shown_at(&place);
+        assert_eq!((told, path), (Tally { unseen: 25, ..Tally::default() }, 25));
+        // An answer is awaited for two seconds, by another thread.
+        assert!(longest < Duration::from_millis(500), "{longest:?}");
+        drop(silent);
+        let (told, path, _) = shown_at(&place);
+        assert_eq!((told, path), (Tally { unseen: 25, ..Tally::default() }, 25));
+    }
+}
