@@ -239,7 +239,8 @@ impl Track {
     /// Writes the rows gathered.
     pub fn flush(&mut self, canvas: &mut Canvas) {
         self.raw.flush(canvas, &self.look, &mut self.axes_told);
-        let rows = std::mem::replace(&mut self.rows, Vec::with_capacity(self.rows_per_chunk()));
+        let room = Vec::with_capacity(self.rows_per_chunk());
+        let rows = std::mem::replace(&mut self.rows, room);
         if rows.is_empty() {
             return;
         }
