@@ -15,14 +15,17 @@ use std::time::{Duration, Instant};
 
 use common::{OK, Said, command, folder, text, tiltrotor, understood};
 
-/// The viewer's program, if it is there.
+/// The viewer's program, if it is there: itself, and not the script that starts it, which would be killed in
+/// its place.
 fn rerun() -> Option<PathBuf> {
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).parent()?.join("rerun-0.36.3/bin/rerun");
-    if program.is_file() {
-        return Some(program);
+    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).parent()?.join("rerun-0.36.3/lib");
+    let within = "site-packages/rerun_sdk/rerun_cli/rerun";
+    let folders = fs::read_dir(&place).into_iter().flatten().flatten();
+    let program = folders.map(|of| of.path().join(within)).find(|program| program.is_file());
+    if program.is_none() {
+        eprintln!("skipped: no viewer below {}", place.display());
     }
-    eprintln!("skipped: no viewer at {}", program.display());
-    None
+    program
 }
 
 fn free_port() -> u16 {
