@@ -21,7 +21,7 @@ use logs::output::Output;
 use logs::records::{InputsRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Observed, Setup};
 use recorder::pilots::Pilot;
-use recorder::writer::{Recording, Saver, ToRecord};
+use recorder::writer::{Saver, ToRecord, WriterHandle};
 use recorder::{Flight, Progress, fly};
 use replay::{Options, ReflyOptions, Window};
 
@@ -67,7 +67,7 @@ fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
         setup: setup(),
         identity: Identity::new(),
         robot_description: String::new(),
-        hands: vec![Box::new(pilot)],
+        controllers: vec![Box::new(pilot)],
         #[cfg(feature = "sticks")]
         sticks: None,
         out: out.clone(),
@@ -146,7 +146,7 @@ fn hand_over_of_a_tick(bencher: Bencher) {
         FlightWriter::create(file, &setup(), &identity, &aircraft, "", &state).expect("a log");
     let told = std::sync::mpsc::channel().1;
     let saver = Saver::beside(&out, &aircraft.name);
-    let mut recording = Recording::start(writer, &aircraft, &state, told, saver, None);
+    let mut recording = WriterHandle::start(writer, &aircraft, &state, told, saver, None);
     let tick = Cell::new(0);
     bencher.with_inputs(|| recording_has_room(tick.get())).bench_local_values(|()| {
         let tick = tick.replace(tick.get() + 1);

@@ -18,7 +18,7 @@ use flightgear::{Link, Receiver};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::Setup;
 use logs::output;
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::view::Level;
 use recorder::flightgear_controls::FlightGearControls;
 use recorder::keyboard::{Keyboard, Orders};
@@ -217,7 +217,7 @@ pub fn run(args: &Args) -> Result<Status> {
     }
     if let Some(path) = &args.script {
         let text = read(path)?;
-        plan.flight.hands.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
+        plan.flight.controllers.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
     }
     if args.flightgear_controls {
         plan.add_flightgear(&mut map)?;
@@ -256,7 +256,7 @@ pub struct Plan {
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
     /// What the crew calls its devices.
-    crew: hardware::Named,
+    controllers: hardware::Named,
     /// Where the keys go.
     orders: Option<Orders>,
     /// Whether there is a panel, or a line of progress.
@@ -312,7 +312,7 @@ impl Plan {
         Ok(Self {
             pipe,
             phases: Vec::new(),
-            crew: hardware::Named::default(),
+            controllers: hardware::Named::default(),
             orders: None,
             panel: false,
             linked,
@@ -324,7 +324,7 @@ impl Plan {
                 setup: Setup { aircraft_toml, cockpit_toml: String::new(), scenario_toml },
                 identity: identity::identity(),
                 robot_description,
-                hands: Vec::new(),
+                controllers: Vec::new(),
                 #[cfg(feature = "sticks")]
                 sticks: None,
                 out: common.out.clone(),
@@ -364,7 +364,7 @@ impl Plan {
         }
         complain!("ground: FlightGear's, {ground_m:.2} m above sea level where the flight begins");
         let hand = ground::hand(receiver, &self.flight.start, &self.flight.aircraft);
-        self.flight.hands.insert(0, Box::new(hand));
+        self.flight.controllers.insert(0, Box::new(hand));
         Ok(link)
     }
 
@@ -379,7 +379,9 @@ impl Plan {
         let ours = aircraft::cockpit("flightgear.toml", aircraft::FLIGHTGEAR_MAP)?;
         map.device.extend(ours.device);
         let hand = FlightGearControls::new(receiver, map);
-        self.flight.hands.extend(hand.map(|hand| Box::new(hand) as Box<dyn recorder::Hands>));
+        self.flight
+            .controllers
+            .extend(hand.map(|hand| Box::new(hand) as Box<dyn recorder::Controller>));
         Ok(())
     }
 
@@ -411,7 +413,7 @@ impl Plan {
             bail!("no pilot model is called `{name}`; there are {}", pilot_names());
         };
         self.phases = pilot.phases();
-        self.flight.hands.push(Box::new(pilot));
+        self.flight.controllers.push(Box::new(pilot));
         Ok(())
     }
 
@@ -440,7 +442,7 @@ impl Plan {
         let own = aircraft::cockpit("keyboard.toml", aircraft::KEYBOARD_MAP)?;
         map.device.extend(own.device);
         let (keyboard, orders) = Keyboard::of(map).context("the map has no keyboard")?;
-        self.flight.hands.push(Box::new(keyboard));
+        self.flight.controllers.push(Box::new(keyboard));
         self.orders = Some(orders);
         Ok(())
     }
@@ -454,7 +456,7 @@ impl Plan {
     }
 
     fn plug_in(&mut self, map: &mut cockpit::Params, path: Option<&Path>) -> Result<()> {
-        self.crew = hardware::plug_in(&mut self.flight, map, path)?;
+        self.controllers = hardware::plug_in(&mut self.flight, map, path)?;
         Ok(())
     }
 
@@ -467,7 +469,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, crew, live, .. } = self;
+        let Self { flight, pipe: _pipe, phases, controllers, live, .. } = self;
         let real_time = flight.real_time.is_some();
         let live = live.map(|live| live.ready(&flight, &progress));
         let flown = || {
@@ -492,7 +494,7 @@ impl Plan {
                     for warning in warnings(&told, &now) {
                         bar.suspend(|| complain!("WARNING: {warning}"));
                     }
-                    for line in crew.lines(&told, &now) {
+                    for line in controllers.lines(&told, &now) {
                         bar.suspend(|| complain!("{line}"));
                     }
                     told = now;
@@ -512,7 +514,7 @@ impl Plan {
     fn fly_with_panel(self) -> Result<Landing> {
         let progress = Progress::default();
         progress.stop_on_signals()?;
-        let Self { flight, pipe: _pipe, phases, orders, crew, live, .. } = self;
+        let Self { flight, pipe: _pipe, phases, orders, controllers, live, .. } = self;
         let live = live.map(|live| live.ready(&flight, &progress));
         let verdict = flight
             .real_time
@@ -525,7 +527,7 @@ impl Plan {
             envelope: aircraft.envelope.clone(),
             phases,
             verdict,
-            controls: controls::lines(&aircraft.cockpit, crew.names()),
+            controls: controls::lines(&aircraft.cockpit, controllers.names()),
             keys_fly: orders.is_some(),
         };
         let panel = Panel {
@@ -610,9 +612,9 @@ fn line(now: &Snapshot, phases: &[&str]) -> String {
     )
 }
 
-/// Whether an event is for the crew, and is told nowhere else.
+/// Whether an event is for the controllers, and is told nowhere else.
 fn is_new(event: &Told) -> bool {
-    let elsewhere = [Happening::Slip, Happening::SelfCheck, Happening::GaveUp];
+    let elsewhere = [FlightEvent::Slip, FlightEvent::SelfCheck, FlightEvent::GaveUp];
     event.level != Level::Info && !elsewhere.contains(&event.what)
 }
 

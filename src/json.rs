@@ -3,7 +3,7 @@
 use engine::STEP_S;
 use logs::fields::Value as Number;
 use replay::growth::{Checkpoint, Growth};
-use replay::{Divergence, End, InputChange, Judgement, SingleSteps, Stage};
+use replay::{Divergence, End, InputChange, Judgement, OneStepCheck, Stage};
 use serde_json::{Value, json};
 
 use crate::status::Status;
@@ -84,7 +84,7 @@ fn input(input: &InputChange) -> Value {
     }
 }
 
-fn single(single: &SingleSteps) -> Value {
+fn single(single: &OneStepCheck) -> Value {
     json!({
         "ticks": single.ticks,
         "differing": single.differing,

@@ -196,8 +196,8 @@ fn say_beside_the_flight(reader: &FlightReader) {
         let mapped = if device.mapped == 0 { " (not in the cockpit map)" } else { "" };
         say!("  {name:<16} {}{mapped}", identity(device));
     }
-    for remark in &reader.remarks {
-        say!("  {:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words);
+    for line in &reader.log_lines {
+        say!("  {:>10.3} s  {}", line.time_ns as f64 * 1e-9, line.words);
     }
 }
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use common::{LOG_CUT_SHORT, OK, Said, UNUSABLE, folder, text, tiltrotor};
 use logs::OpenOptions;
-use logs::records::{EventRecord, Happening};
+use logs::records::{EventRecord, FlightEvent};
 
 const WEATHER: &str = "
 [[event]]
@@ -52,15 +52,15 @@ fn fly(place: &Path, script: &str, more: &[&str]) -> (PathBuf, Said) {
 }
 
 /// Every event of a kind, with its words.
-fn told(log: &Path, what: Happening) -> Vec<(EventRecord, String)> {
+fn told(log: &Path, what: FlightEvent) -> Vec<(EventRecord, String)> {
     let mut reader = logs::open(log, OpenOptions::default()).expect("a flight log");
     while reader.next_tick().expect("whole ticks").is_some() {}
-    let words = reader.remarks.iter().map(|remark| remark.words.clone());
-    let events = reader.happenings.iter().copied().zip(words);
+    let words = reader.log_lines.iter().map(|line| line.words.clone());
+    let events = reader.events.iter().copied().zip(words);
     events.filter(|(event, _)| event.kind == what as u64).collect()
 }
 
-fn words(log: &Path, what: Happening) -> Vec<String> {
+fn words(log: &Path, what: FlightEvent) -> Vec<String> {
     told(log, what).into_iter().map(|(_, words)| words).collect()
 }
 
@@ -69,19 +69,19 @@ fn weather_and_failures_are_told_when_they_come_and_go() {
     let place = folder("events-weather");
     let (log, said) = fly(&place, WEATHER, &["--pilot", "hover", "--duration", "8"]);
     said.ends(OK);
-    assert_eq!(words(&log, Happening::Wind), ["wind: from 270 deg, 15.0 kt", "wind: calm"]);
+    assert_eq!(words(&log, FlightEvent::Wind), ["wind: from 270 deg, 15.0 kt", "wind: calm"]);
     assert_eq!(
-        words(&log, Happening::Gust),
+        words(&log, FlightEvent::Gust),
         ["gust begins: 0.0 m/s north, 0.0 m/s east, 6.0 m/s up, over 2.0 s"]
     );
-    let gust = told(&log, Happening::Gust)[0].0;
+    let gust = told(&log, FlightEvent::Gust)[0].0;
     assert_eq!((gust.tick, gust.measured), (500, [6.0, 2.0]));
-    assert_eq!(words(&log, Happening::Turbulence).len(), 2);
+    assert_eq!(words(&log, FlightEvent::Turbulence).len(), 2);
     assert_eq!(
-        words(&log, Happening::Failures),
+        words(&log, FlightEvent::Failures),
         ["failed: SCAS yaw, governor", "mended: SCAS yaw; still failed: governor"]
     );
-    assert_eq!(words(&log, Happening::Landed), ["end of the flight: the time given is over"]);
+    assert_eq!(words(&log, FlightEvent::Landed), ["end of the flight: the time given is over"]);
 }
 
 #[test]
@@ -126,16 +126,16 @@ fn empty_tanks_and_the_impact_are_told_with_sink_and_speed() {
     ];
     let (log, said) = fly(&place, "[[event]]\nat_s = 5.0\naxis = { stick_right = 1.0 }\n", &more);
     said.ends(OK);
-    let fuel = words(&log, Happening::Fuel);
+    let fuel = words(&log, FlightEvent::Fuel);
     assert_eq!(fuel, ["fuel exhausted; out by it: left engine, right engine"]);
-    let impacts = told(&log, Happening::Impact);
+    let impacts = told(&log, FlightEvent::Impact);
     let (hull, said) = impacts.iter().find(|(event, _)| event.value == 2).expect("the hull");
     assert!(hull.measured[0] > 3.0, "{said}");
     assert!(said.starts_with("impact, sinking ") && said.ends_with("structural contact: the hull"));
-    let validity = words(&log, Happening::Validity);
+    let validity = words(&log, FlightEvent::Validity);
     assert!(validity.iter().any(|words| words.contains("hull on the ground")), "{validity:?}");
     // A wreck that rolls over its wheels neither lands nor lifts off.
-    let wheels = told(&log, Happening::WeightOnWheels);
+    let wheels = told(&log, FlightEvent::WeightOnWheels);
     assert!(wheels.iter().all(|(event, _)| event.tick <= hull.tick), "{wheels:?}");
 }
 
@@ -146,9 +146,9 @@ fn a_pilot_that_cannot_do_its_task_gives_up_in_words_and_ends_with_4() {
     let more = ["--pilot", "takeoff", "--speed-kt", "80", "--duration", "300"];
     let (log, said) = fly(&place, scenario, &more);
     said.ends(LOG_CUT_SHORT).says("end        end of the flight: the pilot gave up, ");
-    let gave_up = told(&log, Happening::GaveUp);
+    let gave_up = told(&log, FlightEvent::GaveUp);
     assert_eq!(gave_up.len(), 1, "{gave_up:?}");
-    assert_eq!(told(&log, Happening::Landed)[0].0.value, 3);
+    assert_eq!(told(&log, FlightEvent::Landed)[0].0.value, 3);
 }
 
 /// The pilot selects the rotor speed in which nacelles move: it would wait for ever for what nobody asks
@@ -159,10 +159,10 @@ fn a_pilot_reconverts_from_the_slow_rotors_of_an_aeroplane_and_lands() {
     let more = ["--pilot", "land", "--nacelle", "0", "--speed-kt", "180"];
     let (log, said) = fly(&place, "", &more);
     said.ends(OK);
-    assert_eq!(words(&log, Happening::Landed), ["end of the flight: the hands are done"]);
-    let touchdowns = told(&log, Happening::WeightOnWheels);
+    assert_eq!(words(&log, FlightEvent::Landed), ["end of the flight: the hands are done"]);
+    let touchdowns = told(&log, FlightEvent::WeightOnWheels);
     assert!(touchdowns.iter().any(|(event, _)| event.value == 1), "{touchdowns:?}");
-    assert!(words(&log, Happening::Impact).is_empty());
+    assert!(words(&log, FlightEvent::Impact).is_empty());
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn log_times_never_go_back_and_validity_does_not_chatter() {
     assert!(count > 10_000, "{count}");
     // Each flag comes and goes at most once a second.
     let mut flags: BTreeMap<u64, u64> = BTreeMap::new();
-    for (event, words) in told(&log, Happening::Validity) {
+    for (event, words) in told(&log, FlightEvent::Validity) {
         if let Some(before) = flags.insert(event.value, event.tick) {
             assert!(event.tick >= before + 250, "{words}");
         }

@@ -21,7 +21,7 @@ use logs::output::Output;
 use logs::records::{EVENTS, HARDWARE, INPUTS, OUTPUTS, STATE, TIMING};
 use logs::{Ending, FlightReader, LogError, Messages, OpenOptions};
 use recorder::script::Script;
-use recorder::{Hands, Reach};
+use recorder::{Controller, TickContext};
 use replay::{Options, Outcome, verify};
 
 /// Longer than this for one input is a hang, on however busy a machine.
@@ -283,14 +283,14 @@ fn no_log_with_every_checksum_right_breaks_verify_or_recover() {
 }
 
 /// The aircraft of a log, for compacted ones.
-fn flown_by(setup: &logs::Setup) -> Result<logs::compact::Flown, LogError> {
+fn flown_by(setup: &logs::Setup) -> Result<logs::compact::FlightModel, LogError> {
     let refused = |error: aircraft::ConfigError| LogError::NotAFlight(error.to_string());
     let map = aircraft::cockpit("cockpit.toml", &setup.cockpit_toml).map_err(refused)?;
     let aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)
         .map_err(refused)?
         .with_cockpit(map);
     let start = aircraft::start("scenario.toml", &setup.scenario_toml).map_err(refused)?;
-    Ok(logs::compact::Flown { aircraft, world: start.world.world() })
+    Ok(logs::compact::FlightModel { aircraft, world: start.world.world() })
 }
 
 #[test]
@@ -446,8 +446,9 @@ fn no_script_breaks_its_reader_and_what_it_accepts_can_be_played() {
                 let (mut phase, mut gave_up) = ((0, ""), None);
                 let (phase, done, gave_up) = (&mut phase, &mut done, &mut gave_up);
                 let (restart, save) = (&mut None, &mut false);
-                let mut reach = Reach { tick, events, world, phase, done, gave_up, restart, save };
-                script.act(&seen, &mut reach);
+                let mut context =
+                    TickContext { tick, events, world, phase, done, gave_up, restart, save };
+                script.act(&seen, &mut context);
             }
         },
     );

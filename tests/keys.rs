@@ -14,10 +14,10 @@ use common::{
 use engine::cockpit;
 use engine::inputs::Failures;
 use engine::{Outputs, State};
-use logs::records::{Happening, RESTART, RestartRecord};
+use logs::records::{FlightEvent, RESTART, RestartRecord};
 use logs::{FlightReader, Identity, OpenOptions, Setup};
 use recorder::keyboard::{KeyAction, Keyboard, Order, Orders};
-use recorder::{Flight, Hands, Landing, Progress, Reach, Restart, situation};
+use recorder::{Controller, Flight, Landing, Progress, Restart, TickContext, situation};
 
 /// Presses keys at their ticks.
 struct Typist {
@@ -27,13 +27,13 @@ struct Typist {
     until_tick: u64,
 }
 
-impl Hands for Typist {
-    fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
-        while let Some((_, order)) = self.keys.get(self.next).filter(|key| key.0 <= reach.tick) {
+impl Controller for Typist {
+    fn act(&mut self, _: &Outputs, context: &mut TickContext<'_>) {
+        while let Some((_, order)) = self.keys.get(self.next).filter(|key| key.0 <= context.tick) {
             assert!(self.orders.give(*order));
             self.next += 1;
         }
-        *reach.done = reach.tick >= self.until_tick;
+        *context.done = context.tick >= self.until_tick;
     }
 }
 
@@ -66,7 +66,7 @@ fn fly(
         robot_description: aircraft::urdf(&xv15),
         situation: from.map(|file| situation::load(file, &xv15.name).expect("a situation")),
         aircraft: xv15.with_cockpit(map),
-        hands: vec![Box::new(typist), Box::new(keyboard)],
+        controllers: vec![Box::new(typist), Box::new(keyboard)],
         #[cfg(feature = "sticks")]
         sticks: None,
         out: log.to_path_buf(),
@@ -107,8 +107,8 @@ fn states(log: &Path, ticks: &[u64]) -> Vec<State> {
     found
 }
 
-fn events(reader: &FlightReader, kind: Happening) -> Vec<(u64, u64)> {
-    let of = reader.happenings.iter().filter(|event| event.kind == kind as u64);
+fn events(reader: &FlightReader, kind: FlightEvent) -> Vec<(u64, u64)> {
+    let of = reader.events.iter().filter(|event| event.kind == kind as u64);
     of.map(|event| (event.tick, event.value)).collect()
 }
 
@@ -126,7 +126,7 @@ fn every_key_is_a_recorded_input() {
     let landing = fly(&log, "hover-50ft", None, keys, 1200);
     assert!(landing.events > 100, "{}", landing.events);
     let reader = proven(&log);
-    assert_eq!(events(&reader, Happening::Marker).len(), 1);
+    assert_eq!(events(&reader, FlightEvent::Marker).len(), 1);
 }
 
 #[test]
@@ -141,8 +141,8 @@ fn a_situation_is_saved_and_loaded_in_the_same_flight_and_in_another() {
     ];
     fly(&log, "hover-50ft", None, keys, 800);
     let reader = proven(&log);
-    assert_eq!(events(&reader, Happening::SituationSaved), [(200, 1)]);
-    assert_eq!(events(&reader, Happening::Restarted), [(600, 4)]);
+    assert_eq!(events(&reader, FlightEvent::SituationSaved), [(200, 1)]);
+    assert_eq!(events(&reader, FlightEvent::Restarted), [(600, 4)]);
     // The same motion follows from the same state: tick 201 and tick 601 differ in their number alone.
     let [first, again] = states(&log, &[201, 601])[..] else { panic!("two states") };
     assert_eq!(again.plant.position_m, first.plant.position_m);
@@ -180,13 +180,13 @@ fn weather_and_failures_by_key_are_recorded() {
     ];
     fly(&log, "hover-50ft", None, keys, 700);
     let reader = proven(&log);
-    assert_eq!(events(&reader, Happening::Wind), [(10, 1), (20, 1), (30, 1)]);
-    assert_eq!(events(&reader, Happening::Turbulence), [(50, 1)]);
-    assert_eq!(events(&reader, Happening::Gust), [(100, 100)]);
+    assert_eq!(events(&reader, FlightEvent::Wind), [(10, 1), (20, 1), (30, 1)]);
+    assert_eq!(events(&reader, FlightEvent::Turbulence), [(50, 1)]);
+    assert_eq!(events(&reader, FlightEvent::Gust), [(100, 100)]);
     let both = (Failures::ENGINE_LEFT | Failures::SCAS_YAW).bits();
     let left = Failures::ENGINE_LEFT.bits();
-    assert_eq!(events(&reader, Happening::Failures), [(200, left), (300, both), (500, 0)]);
-    let wind = reader.happenings.iter().rfind(|event| event.kind == Happening::Wind as u64);
+    assert_eq!(events(&reader, FlightEvent::Failures), [(200, left), (300, both), (500, 0)]);
+    let wind = reader.events.iter().rfind(|event| event.kind == FlightEvent::Wind as u64);
     let [speed_mps, from_deg] = wind.expect("wind").measured;
     // Ahead is 270 deg; ten degrees to the right of it.
     assert!((speed_mps - engine::units::mps_of_knots(10.0)).abs() < 1e-9);
@@ -199,7 +199,7 @@ fn a_frozen_aircraft_stands_still_and_goes_on() {
     let keys = vec![press(100, KeyAction::Freeze), press(300, KeyAction::Freeze)];
     fly(&log, "downwind", None, keys, 400);
     let reader = proven(&log);
-    assert_eq!(events(&reader, Happening::Paused), [(100, 1), (300, 0)]);
+    assert_eq!(events(&reader, FlightEvent::Paused), [(100, 1), (300, 0)]);
     let [before, last, on] = states(&log, &[100, 300, 301])[..] else { panic!("three states") };
     assert_eq!(before.plant, last.plant);
     assert_ne!(last.plant, on.plant);
@@ -218,9 +218,9 @@ fn a_reset_goes_back_to_the_start_or_to_the_last_marker() {
     let landing = fly(&log, "hover-50ft", None, keys, 700);
     assert_eq!(landing.debrief.touchdowns, 0);
     let reader = proven(&log);
-    assert_eq!(events(&reader, Happening::Restarted), [(400, 2), (600, 1)]);
+    assert_eq!(events(&reader, FlightEvent::Restarted), [(400, 2), (600, 1)]);
     // The engine works again at the marker, because it did then.
-    assert_eq!(events(&reader, Happening::Failures).last(), Some(&(400, 0)));
+    assert_eq!(events(&reader, FlightEvent::Failures).last(), Some(&(400, 0)));
     let [marked, first, again, reset] = states(&log, &[201, 202, 401, 601])[..] else {
         panic!("four states")
     };
@@ -246,8 +246,8 @@ fn a_reposition_goes_on_from_a_start_position() {
     ];
     fly(&log, "runway", None, keys, 400);
     let reader = proven(&log);
-    assert_eq!(events(&reader, Happening::Restarted), [(100, 3)]);
-    assert_eq!(events(&reader, Happening::Wind).len(), 1, "the weather stays");
+    assert_eq!(events(&reader, FlightEvent::Restarted), [(100, 3)]);
+    assert_eq!(events(&reader, FlightEvent::Wind).len(), 1, "the weather stays");
     let [state, later] = states(&log, &[101, 400])[..] else { panic!("two states") };
     assert_eq!(state.plant.origin, there.plant.origin);
     // The lever goes on from where the aircraft has it.
@@ -264,12 +264,12 @@ fn a_what_if_and_a_clip_of_a_flight_with_a_reset_keep_it() {
     let cut =
         ["log", "clip", text(&log), "--from", "200t", "--until", "500t", "--out", text(&clip)];
     tiltrotor(&cut).ends(OK);
-    assert_eq!(events(&proven(&clip), Happening::Restarted), [(300, 1)]);
+    assert_eq!(events(&proven(&clip), FlightEvent::Restarted), [(300, 1)]);
     let other = log.with_file_name("other.mcap");
     let set = ["--set", "fcc.scas.pitch.rate_gain_in_per_radps=2.5", "--out", text(&other)];
     let said = tiltrotor(&[&["whatif", text(&log)], &set[..]].concat()).ends(OK);
     said.says("baseline: flown unchanged, the recorded inputs give the recorded states");
-    assert_eq!(events(&proven(&other), Happening::Restarted), [(300, 1)]);
+    assert_eq!(events(&proven(&other), FlightEvent::Restarted), [(300, 1)]);
 }
 
 #[test]
@@ -324,7 +324,7 @@ fn a_flight_with_a_restart_that_was_cut_is_recovered_beyond_it() {
     verify(&recovered).ends(INCOMPLETE).says("exact");
     let mut reader = logs::open(&recovered, OpenOptions::default()).expect("a log");
     while reader.next_tick().expect("a tick").is_some() {}
-    assert_eq!(events(&reader, Happening::Restarted), [(300, 1)]);
+    assert_eq!(events(&reader, FlightEvent::Restarted), [(300, 1)]);
 }
 
 #[test]

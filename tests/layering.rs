@@ -181,7 +181,8 @@ fn unsafe_code_is_forbidden_everywhere_but_in_the_c_interface() {
     let mut allow = Vec::new();
     for entry in fs::read_dir(root().join("fmi/src")).expect("the FMU") {
         let path = entry.expect("an entry").path();
-        let text = if path.is_dir() { String::new() } else { fs::read_to_string(&path).expect("text") };
+        let text =
+            if path.is_dir() { String::new() } else { fs::read_to_string(&path).expect("text") };
         if text.contains("allow(unsafe_code") {
             allow.push(path.file_name().expect("a name").to_string_lossy().into_owned());
         }

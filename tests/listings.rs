@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use engine::cockpit::{AxisControl, ButtonControl};
 use engine::inputs::{EventKind, Failures};
 use engine::outputs::{Severity, Validity};
-use logs::records::{Happening, Levels, RestartCause};
+use logs::records::{FlightEvent, Levels, RestartCause};
 use logs::view::Level;
 use recorder::keyboard::KeyAction;
 
@@ -47,9 +47,9 @@ fn severity(severity: Severity) -> &'static str {
 }
 
 fn listings() -> Vec<Listing> {
-    let events = Happening::ALL.iter().map(|&happening| {
-        let facts = happening.facts();
-        let (number, key) = (happening as u64, code(facts.key));
+    let events = FlightEvent::ALL.iter().map(|&event| {
+        let facts = event.facts();
+        let (number, key) = (event as u64, code(facts.key));
         row(&[&number, &key, &facts.description, &facts.value, &levels(facts.levels)])
     });
     let validity = Validity::FACTS.iter().map(|facts| {

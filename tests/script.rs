@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use common::{OK, folder, text, tiltrotor, verify};
 use engine::inputs::{EventKind, Failures, World};
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::{FlightReader, OpenOptions, Tick};
 
 const SCRIPT: &str = r#"
@@ -100,24 +100,24 @@ fn what_a_script_does_is_told_by_log_info() {
 fn the_events_of_a_script_are_recorded_at_their_ticks() {
     let (_, reader) = ticks();
     let told: Vec<_> = reader
-        .happenings
+        .events
         .iter()
-        .filter_map(|event| Some((event.tick, Happening::from_u64(event.kind)?, event.value)))
-        .filter(|(_, what, _)| !matches!(what, Happening::Validity | Happening::WeightOnWheels))
+        .filter_map(|event| Some((event.tick, FlightEvent::from_u64(event.kind)?, event.value)))
+        .filter(|(_, what, _)| !matches!(what, FlightEvent::Validity | FlightEvent::WeightOnWheels))
         .collect();
     let both = Failures::ENGINE_LEFT | Failures::SCAS_YAW;
     assert_eq!(
         told,
         [
-            (tick(2000), Happening::Wind, 1),
+            (tick(2000), FlightEvent::Wind, 1),
             // A marker is counted by the step that got it.
-            (tick(2000) + 1, Happening::Marker, 1),
-            (tick(3000), Happening::Failures, both.bits()),
-            (tick(3500), Happening::Failures, Failures::ENGINE_LEFT.bits()),
-            (tick(3500), Happening::Paused, 1),
-            (tick(3800), Happening::Paused, 0),
-            (tick(4000) + 1, Happening::Marker, 2),
-            (tick(4000) + 1, Happening::Landed, 0),
+            (tick(2000) + 1, FlightEvent::Marker, 1),
+            (tick(3000), FlightEvent::Failures, both.bits()),
+            (tick(3500), FlightEvent::Failures, Failures::ENGINE_LEFT.bits()),
+            (tick(3500), FlightEvent::Paused, 1),
+            (tick(3800), FlightEvent::Paused, 0),
+            (tick(4000) + 1, FlightEvent::Marker, 2),
+            (tick(4000) + 1, FlightEvent::Landed, 0),
         ]
     );
 }

@@ -17,7 +17,7 @@ use common::{
     INCOMPLETE, LOG_CUT_SHORT, OK, Said, folder, hover, text, tiltrotor, understood, verify,
 };
 use engine::STEP_NS;
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::{FlightReader, OpenOptions};
 
 /// How long a process is stopped.
@@ -119,8 +119,8 @@ fn read(log: &Path) -> FlightReader {
     reader
 }
 
-fn count(reader: &FlightReader, what: Happening) -> usize {
-    reader.happenings.iter().filter(|event| event.kind == what as u64).count()
+fn count(reader: &FlightReader, what: FlightEvent) -> usize {
+    reader.events.iter().filter(|event| event.kind == what as u64).count()
 }
 
 #[test]
@@ -136,22 +136,22 @@ fn a_flight_that_was_stopped_goes_on_from_where_it_was_and_says_so() {
     verify(&log).ends(OK).says("exact: all 1000 ticks");
 
     let reader = read(&log);
-    assert_eq!(count(&reader, Happening::WriterHeldUp), 0);
+    assert_eq!(count(&reader, FlightEvent::WriterHeldUp), 0);
     let slips_ns: Vec<u64> = reader.timings.iter().map(|timing| timing.slip_ns).collect();
     let longest_ns = slips_ns.iter().copied().max().unwrap_or(0);
     assert!(longest_ns >= STOPPED.as_nanos() as u64, "{longest_ns} ns");
-    assert_eq!(count(&reader, Happening::Slip), slips_ns.iter().filter(|&&ns| ns > 0).count());
-    let told = reader.happenings.iter().filter(|event| event.kind == Happening::Slip as u64);
+    assert_eq!(count(&reader, FlightEvent::Slip), slips_ns.iter().filter(|&&ns| ns > 0).count());
+    let told = reader.events.iter().filter(|event| event.kind == FlightEvent::Slip as u64);
     assert_eq!(told.map(|event| event.value).max(), Some(longest_ns / 1_000_000));
 
     // A part is of the flight as it was flown; what would have been was flown by no clock.
     let (part, otherwise) = (log.with_file_name("part.mcap"), log.with_file_name("whatif.mcap"));
     let whole = ["--from", "0", "--until", "4", "--out", text(&part)];
     tiltrotor(&[&["log", "clip", text(&log)], &whole[..]].concat()).ends(OK);
-    assert_eq!(count(&read(&part), Happening::Slip), count(&reader, Happening::Slip));
+    assert_eq!(count(&read(&part), FlightEvent::Slip), count(&reader, FlightEvent::Slip));
     let changed = ["--fail", "scas_yaw", "--out", text(&otherwise)];
     tiltrotor(&[&["whatif", text(&log)], &changed[..]].concat()).ends(OK);
-    assert_eq!(count(&read(&otherwise), Happening::Slip), 0);
+    assert_eq!(count(&read(&otherwise), FlightEvent::Slip), 0);
 }
 
 #[test]

@@ -14,7 +14,7 @@ use std::time::Duration;
 
 use common::{OK, command, folder, text, tiltrotor, understood, verify};
 use logs::OpenOptions;
-use logs::records::Happening;
+use logs::records::FlightEvent;
 
 /// How long the reader of the pipe is stopped, s.
 const STALL_S: u64 = 5;
@@ -78,7 +78,7 @@ fn a_writer_stalled_for_five_seconds_delays_no_tick_and_loses_no_input() {
 
     let mut reader = logs::open(&log, OpenOptions::default()).expect("a flight log");
     while reader.next_tick().expect("whole ticks").is_some() {}
-    let held_up_ms = reader.happenings.iter().filter(|e| e.kind == Happening::WriterHeldUp as u64);
+    let held_up_ms = reader.events.iter().filter(|e| e.kind == FlightEvent::WriterHeldUp as u64);
     let longest_ms = held_up_ms.map(|event| event.value).max().expect("it is in the log");
     // The pipe takes some of the flight before it is full.
     assert!((STALL_S - 2) * 1000 < longest_ms, "{longest_ms} ms");

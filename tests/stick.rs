@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 
 use common::{OK, folder, said, text, tiltrotor, verify};
 use engine::inputs::EventKind;
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::{FlightReader, OpenOptions, Tick};
 
 const EVEMU: &str = include_str!("devices/stick.evemu");
@@ -124,9 +124,9 @@ fn the_trigger_marks_the_moment() {
         .iter()
         .find(|tick| tick.events.iter().any(|event| (event.code, event.value) == (0x120, 1)));
     let marks: Vec<_> = reader
-        .happenings
+        .events
         .iter()
-        .filter(|event| event.kind == Happening::Marker as u64)
+        .filter(|event| event.kind == FlightEvent::Marker as u64)
         .map(|event| (event.tick, event.value))
         .collect();
     assert_eq!(marks, [(pressed.expect("a trigger").record.state.tick, 1)]);

@@ -426,7 +426,7 @@ pub fn engine_out(aircraft: &Aircraft, book: &mut Book) {
         "Closed form: the shafts are joined, so that both rotors go on alike; what is left is the jet of one \
          engine on one side, some 85 lbf in hover (CR-176970).",
         "The jet acts along the mast at the nacelle: upright it rolls, at 0 deg it yaws. Stick or pedal = \
-         F·y/(I·sensitivity); ±25 %, since either control does a little of the other. Hands off: less than 5 deg in 5 s, our own \
+         F·y/(I·sensitivity); ±25 %, since either control does a little of the other. Controller off: less than 5 deg in 5 s, our own \
          requirement, with the SCAS on.",
     );
     for (label, nacelle_deg, speed_kt, flap) in

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::LogError;
-use crate::compact::{AircraftOf, Expander};
+use crate::compact::{Expander, FlightModelOf};
 use crate::container::{LogFile, RecordSource};
 
 /// How a log is opened.
@@ -11,7 +11,7 @@ use crate::container::{LogFile, RecordSource};
 pub struct OpenOptions {
     /// Makes the aircraft that flies what a compacted log leaves out. Without it such a log is refused:
     /// [`LogError::Compacted`].
-    pub aircraft_of: Option<AircraftOf>,
+    pub aircraft_of: Option<FlightModelOf>,
     /// Whether a log of another version of the flight model is opened. Its messages become today's
     /// structs by the names of their fields; [`differences`](crate::FlightReader::differences) says which ones did not. The
     /// states of a compacted one are then not those that were flown, but where

@@ -11,7 +11,7 @@ pub use crate::container::time_ns;
 /// Version of the log's format: its records, channels and seals. The fields of a message are not part
 /// of it; each log names its own.
 pub const FORMAT_VERSION: &str = "4";
-/// The formats that are read. 1 had no seals, and at first no last word of the writer; 2 knew no devices,
+/// The formats that are read. 1 had no seals, and at first no footer record of the writer; 2 knew no devices,
 /// and two message types by one name; 3 knew no restarts.
 pub const FORMATS_READ: [&str; 4] = ["1", "2", "3", FORMAT_VERSION];
 
@@ -138,7 +138,7 @@ pub struct TimingRecord {
 pub struct EventRecord {
     /// When.
     pub tick: u64,
-    /// What: one of [`Happening`].
+    /// What: one of [`FlightEvent`].
     pub kind: u64,
     /// Which one, how many, or which bits.
     pub value: u64,
@@ -172,9 +172,9 @@ impl Levels {
     }
 }
 
-/// What is told of a [`Happening`].
+/// What is told of a [`FlightEvent`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct HappeningFacts {
+pub struct FlightEventFacts {
     /// Its name; never changed.
     pub key: &'static str,
     /// What happened.
@@ -189,7 +189,7 @@ engine::enumeration! {
     /// What an [`EventRecord`] tells.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     #[repr(u64)]
-    pub enum Happening tells HappeningFacts {
+    pub enum FlightEvent tells FlightEventFacts {
         /// The pilot pressed the marker.
         Marker = 1 {
             key: "marker", value: "its number", levels: Levels::always(Level::Info),
@@ -291,7 +291,7 @@ engine::enumeration! {
     }
 }
 
-impl Happening {
+impl FlightEvent {
     /// The one recorded as `kind`, if it is one.
     pub fn from_u64(kind: u64) -> Option<Self> {
         Self::ALL.iter().copied().find(|&known| known as u64 == kind)

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::channels::{Chain, Channel, ChannelId, Compacted};
-use crate::compact::{AircraftOf, Flier};
+use crate::compact::{FlightModelOf, Regenerator};
 use crate::open::OpenOptions;
 use crate::output::Output;
 use crate::reader::{Ending, FlightReader, Message, Messages, open};
@@ -61,15 +61,15 @@ impl Recovery {
 pub fn recover(
     broken: &Path,
     output: &Output,
-    aircraft_of: AircraftOf,
+    aircraft_of: FlightModelOf,
 ) -> Result<Recovery, LogError> {
     let options = OpenOptions { aircraft_of: Some(aircraft_of), across_versions: false };
     let mut recovery = survey(broken, options)?;
     let mut reader = open(broken, options)?;
     let parent = name_of(broken, &reader);
     let mut identity = std::mem::take(&mut reader.identity);
-    if let Some(oddity) = reader.oddity() {
-        identity = identity.with(Recovery::IDENTITY, oddity);
+    if let Some(integrity_fault) = reader.integrity_fault() {
+        identity = identity.with(Recovery::IDENTITY, integrity_fault);
     }
     let identity = identity
         .with(Recovery::PARENT, parent)
@@ -179,7 +179,7 @@ fn copy(
 
 /// Flies the kept ticks again, beside the messages that are made of them.
 struct Witness {
-    flier: Flier,
+    regenerator: Regenerator,
     /// The first state has come.
     begun: bool,
     /// Every tick so far was the recorded one.
@@ -191,9 +191,15 @@ struct Witness {
 }
 
 impl Witness {
-    fn of(setup: &Setup, aircraft_of: AircraftOf) -> Result<Self, LogError> {
-        let flier = Flier::new(aircraft_of(setup)?);
-        Ok(Self { flier, begun: false, together: true, again: Vec::new(), last: BTreeMap::new() })
+    fn of(setup: &Setup, aircraft_of: FlightModelOf) -> Result<Self, LogError> {
+        let regenerator = Regenerator::new(aircraft_of(setup)?);
+        Ok(Self {
+            regenerator,
+            begun: false,
+            together: true,
+            again: Vec::new(),
+            last: BTreeMap::new(),
+        })
     }
 
     /// Whether nothing speaks against a message. Where this program does not fly the recorded flight,
@@ -201,13 +207,15 @@ impl Witness {
     fn confirms(&mut self, message: &Message) -> Result<bool, LogError> {
         let Some(channel) = message.channel().filter(|_| self.together) else { return Ok(true) };
         match channel.compacted {
-            Compacted::Rows | Compacted::Kept => self.flier.takes(channel.id, &message.data)?,
+            Compacted::Rows | Compacted::Kept => {
+                self.regenerator.takes(channel.id, &message.data)?;
+            }
             Compacted::Reflown => self.state(message)?,
             Compacted::Remade => {
                 self.again.clear();
                 let tick = message.time_ns / engine::STEP_NS;
                 let next = self.last.get(&channel.id).is_none_or(|&last| last < tick);
-                let made = self.flier.view(&mut self.again, channel, tick)?;
+                let made = self.regenerator.view(&mut self.again, channel, tick)?;
                 let same = made && self.again == message.data && message.is_stamped(tick);
                 if next && same {
                     self.last.insert(channel.id, tick);
@@ -221,12 +229,12 @@ impl Witness {
     fn state(&mut self, message: &Message) -> Result<(), LogError> {
         let record: crate::records::StateRecord = cdr::decode(&message.data)?;
         if !std::mem::replace(&mut self.begun, true) {
-            self.flier.begin(record.state);
+            self.regenerator.begin(record.state);
             return Ok(());
         }
-        self.flier.fly();
+        self.regenerator.fly();
         self.again.clear();
-        self.flier.state_message(&mut self.again, record.digest)?;
+        self.regenerator.state_message(&mut self.again, record.digest)?;
         self.together = self.again == message.data;
         Ok(())
     }

@@ -22,7 +22,7 @@ pub(crate) const CLOSING: &str = "tiltrotor_closing";
 pub(crate) const CLOSING_TICK: &str = "tick";
 /// Its key for the last digest.
 pub(crate) const CLOSING_DIGEST: &str = "digest";
-/// Its key for the roll call of all messages.
+/// Its key for the message digest of all messages.
 pub(crate) const CLOSING_MESSAGES: &str = "messages";
 
 /// Ticks a second.

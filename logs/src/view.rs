@@ -171,7 +171,7 @@ pub struct Log<'a> {
 
 /// A line of the flight's log, read back.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Remark {
+pub struct LogLine {
     /// Simulated time, ns.
     pub time_ns: u64,
     /// Severity.
@@ -184,7 +184,7 @@ pub struct Remark {
 ///
 /// # Errors
 /// When the bytes are none.
-pub fn remark(message: &[u8]) -> Result<Remark, LogError> {
+pub fn log_line(message: &[u8]) -> Result<LogLine, LogError> {
     #[derive(serde::Deserialize)]
     struct Said {
         sec: i32,
@@ -195,7 +195,7 @@ pub fn remark(message: &[u8]) -> Result<Remark, LogError> {
     }
     let said: Said = cdr::decode_view(message, "the words of a /log message")?;
     let known = [Level::Info, Level::Warn, Level::Error];
-    Ok(Remark {
+    Ok(LogLine {
         time_ns: u64::from(said.sec.unsigned_abs()) * 1_000_000_000 + u64::from(said.nanosec),
         level: known.into_iter().find(|level| *level as u8 == said.level).unwrap_or(Level::Error),
         words: said.msg,
@@ -402,9 +402,9 @@ mod tests {
     #[test]
     fn words_are_read_back() {
         let message = cdr::encode_view(&log(375, Level::Warn, "left engine")).unwrap();
-        let remark = remark(&message).unwrap();
-        assert_eq!((remark.time_ns, remark.level), (1_500_000_000, Level::Warn));
-        assert_eq!(remark.words, "left engine");
+        let line = log_line(&message).unwrap();
+        assert_eq!((line.time_ns, line.level), (1_500_000_000, Level::Warn));
+        assert_eq!(line.words, "left engine");
     }
 
     #[test]

@@ -13,12 +13,12 @@ use mcap::{Attachment, Compression, WriteOptions, Writer};
 use serde::Serialize;
 
 use crate::channels::{CHANNELS, Chain as InChain, Channel, ChannelId, Written};
-use crate::container::checksums::{RollCall, seal};
+use crate::container::checksums::{MessageDigest, add_checksum};
 use crate::container::{RECORD_BYTES_MAX, stamped};
 use crate::devices::DeviceIdentity;
 use crate::reader::Message;
 use crate::records::{
-    Chain, EventRecord, Happening, InputsRecord, RestartRecord, StateRecord, TimingRecord,
+    Chain, EventRecord, FlightEvent, InputsRecord, RestartRecord, StateRecord, TimingRecord,
     first_digest,
 };
 use crate::schema::{self, MessageType};
@@ -39,7 +39,7 @@ pub struct FlightWriter {
     /// Numbers of the channels in the file, and what their messages are, in the order of the table.
     channels: Vec<(u16, &'static MessageType)>,
     chain: Chain,
-    roll_call: RollCall,
+    message_digest: MessageDigest,
     /// Whether the state at the start is in it.
     begun: bool,
     last_tick: u64,
@@ -50,7 +50,7 @@ pub struct FlightWriter {
 }
 
 /// Hears what is told in words: tick, what happened, how grave it is, words.
-pub type Listener = Box<dyn FnMut(u64, Happening, Level, &str) + Send>;
+pub type Listener = Box<dyn FnMut(u64, FlightEvent, Level, &str) + Send>;
 
 /// How a log ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,7 +106,7 @@ impl FlightWriter {
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
         let mut facts = identity.0.clone();
-        seal(&mut facts);
+        add_checksum(&mut facts);
         mcap.write_metadata(&mcap::records::Metadata { name: METADATA.into(), metadata: facts })?;
         for (name, text) in setup.files() {
             mcap.attach(&Attachment {
@@ -128,7 +128,7 @@ impl FlightWriter {
             mcap,
             channels,
             chain: Chain::default(),
-            roll_call: RollCall::default(),
+            message_digest: MessageDigest::default(),
             begun: false,
             last_tick: 0,
             message: Vec::with_capacity(8192),
@@ -195,10 +195,10 @@ impl FlightWriter {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn happened(
+    pub fn flight_event(
         &mut self,
         tick: u64,
-        what: Happening,
+        what: FlightEvent,
         value: u64,
         measured: [f64; 2],
         words: &str,
@@ -226,7 +226,7 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn facts(&mut self, name: &str, facts: &BTreeMap<String, String>) -> Result<(), LogError> {
         let mut metadata = facts.clone();
-        seal(&mut metadata);
+        add_checksum(&mut metadata);
         let record = mcap::records::Metadata { name: name.into(), metadata };
         Ok(self.mcap.write_metadata(&record)?)
     }
@@ -311,13 +311,13 @@ impl FlightWriter {
     /// When the file cannot be written.
     pub fn finish(mut self) -> Result<Closed, LogError> {
         let digest = self.chain.digest();
-        let last_word = [
+        let footer_record = [
             (CLOSING_TICK, self.last_tick),
             (CLOSING_DIGEST, digest),
-            (CLOSING_MESSAGES, self.roll_call.digest()),
+            (CLOSING_MESSAGES, self.message_digest.digest()),
         ];
-        let mut facts = last_word.map(|(key, number)| (key.into(), number.to_string())).into();
-        seal(&mut facts);
+        let mut facts = footer_record.map(|(key, number)| (key.into(), number.to_string())).into();
+        add_checksum(&mut facts);
         self.mcap
             .write_metadata(&mcap::records::Metadata { name: CLOSING.into(), metadata: facts })?;
         self.mcap.finish()?;
@@ -360,7 +360,7 @@ impl FlightWriter {
         let header = MessageHeader { channel_id, ..header };
         self.mcap.write_to_known_channel(&header, message)?;
         let topic = CHANNELS[channel as usize].topic;
-        self.roll_call.add(topic, kind.text.as_bytes(), &header, message);
+        self.message_digest.add(topic, kind.text.as_bytes(), &header, message);
         Ok(())
     }
 }

@@ -15,7 +15,7 @@ use std::thread;
 use engine::inputs::{DeviceEvent, EventKind};
 use engine::{Inputs, Outputs, State, step};
 use logs::devices::DeviceIdentity;
-use logs::records::{Happening, InputsRecord, TimingRecord};
+use logs::records::{FlightEvent, InputsRecord, TimingRecord};
 use logs::{Ending, FlightReader, FlightWriter, Identity, LogError, Setup};
 
 /// Resident memory that reading may take beyond what the process had before.
@@ -82,8 +82,8 @@ fn judged(bytes: Vec<u8>, contents: &mut String) -> Seen {
             reader.setup,
             reader.identity,
             reader.timings,
-            reader.happenings,
-            reader.remarks,
+            reader.events,
+            reader.log_lines,
             reader.devices
         );
     }
@@ -133,7 +133,7 @@ fn small_log(name: &str) -> (Vec<u8>, usize) {
         writer
             .timing(&TimingRecord { tick, step_ns: 9_000, ..Default::default() })
             .expect("written");
-        writer.happened(tick, Happening::Marker, 1, [0.0; 2], "marker 1").expect("written");
+        writer.flight_event(tick, FlightEvent::Marker, 1, [0.0; 2], "marker 1").expect("written");
         let outputs = Outputs { tick: 50 * tick, ..Default::default() };
         writer.view(&outputs, state.plant.attitude).expect("written");
         writer.flush().expect("written");

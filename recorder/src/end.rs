@@ -1,6 +1,6 @@
 //! Why a flight ended.
 
-use crate::hands::GaveUp;
+use crate::controller::GaveUp;
 
 /// Why a flight ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use flightgear::Link;
 use logs::{Identity, LogError, Setup};
 
 use crate::clock::RealTime;
-use crate::hands::Hands;
+use crate::controller::Controller;
 use crate::restart::Situation;
 
 /// A flight to be flown.
@@ -24,7 +24,7 @@ pub struct Flight {
     /// The aircraft's shape for viewers, URDF.
     pub robot_description: String,
     /// Whatever moves the controls, in the order in which it is asked.
-    pub hands: Vec<Box<dyn Hands>>,
+    pub controllers: Vec<Box<dyn Controller>>,
     /// Devices that deliver events of their own.
     #[cfg(feature = "sticks")]
     pub sticks: Option<crate::devices::Devices>,
@@ -59,7 +59,7 @@ pub enum FlyError {
 mod tests {
     use engine::{Inputs, Outputs, State, step};
     use logs::OpenOptions;
-    use logs::records::Happening;
+    use logs::records::FlightEvent;
 
     use super::*;
     use crate::landing::Landing;
@@ -82,7 +82,7 @@ mod tests {
             setup,
             identity: Identity::new(),
             robot_description: String::new(),
-            hands: Vec::new(),
+            controllers: Vec::new(),
             #[cfg(feature = "sticks")]
             sticks: None,
             out: out.clone(),
@@ -108,11 +108,11 @@ mod tests {
     fn self_checks(log: &std::path::Path) -> Vec<(u64, u64, String)> {
         let mut reader = logs::open(log, OpenOptions::default()).unwrap();
         while reader.next_tick().unwrap().is_some() {}
-        let words = reader.remarks.iter().filter(|remark| remark.words.contains("self-check"));
-        let mut words = words.map(|remark| remark.words.clone());
-        let events = reader.happenings.iter();
+        let words = reader.log_lines.iter().filter(|line| line.words.contains("self-check"));
+        let mut words = words.map(|line| line.words.clone());
+        let events = reader.events.iter();
         events
-            .filter(|event| event.kind == Happening::SelfCheck as u64)
+            .filter(|event| event.kind == FlightEvent::SelfCheck as u64)
             .map(|event| (event.tick, event.value, words.next().unwrap_or_default()))
             .collect()
     }

@@ -10,7 +10,7 @@ use engine::{Outputs, cockpit};
 use flightgear::Receiver;
 use flightgear::report::{Controls, PRESSES};
 
-use crate::hands::{Hands, Reach};
+use crate::controller::{Controller, TickContext};
 
 /// Its name in the map.
 pub const DEVICE: &str = "FlightGear";
@@ -48,11 +48,11 @@ impl FlightGearControls {
     }
 
     /// One tick with a report, or without one.
-    fn update(&mut self, controls: Option<&Controls>, reach: &mut Reach<'_>) {
+    fn update(&mut self, controls: Option<&Controls>, context: &mut TickContext<'_>) {
         let Some(controls) = controls else {
             self.silent_ticks += 1;
             if self.silent_ticks > SILENT_TICKS && self.held.take().is_some() {
-                self.tell(reach, EventKind::Disconnected);
+                self.tell(context, EventKind::Disconnected);
             }
             return;
         };
@@ -60,35 +60,35 @@ impl FlightGearControls {
         let now = Held { axes: axes(controls), presses: controls.presses };
         match self.held.replace(now) {
             None => {
-                self.tell(reach, EventKind::Connected);
+                self.tell(context, EventKind::Connected);
                 for (code, at) in AXES.into_iter().zip(now.axes) {
-                    self.move_axis(reach, code, at);
+                    self.move_axis(context, code, at);
                 }
             }
             Some(before) => {
                 for ((code, at), was) in AXES.into_iter().zip(now.axes).zip(before.axes) {
                     if at != was {
-                        self.move_axis(reach, code, at);
+                        self.move_axis(context, code, at);
                     }
                 }
                 let counts = now.presses.into_iter().zip(before.presses);
                 for (code, (now, before)) in (BUTTONS..).zip(counts) {
                     for _ in 0..now.saturating_sub(before).clamp(0, PRESSES_A_TICK) {
-                        reach.send(self.device, EventKind::Button, code, 1);
-                        reach.send(self.device, EventKind::Button, code, 0);
+                        context.send(self.device, EventKind::Button, code, 1);
+                        context.send(self.device, EventKind::Button, code, 0);
                     }
                 }
             }
         }
     }
 
-    fn move_axis(&self, reach: &mut Reach<'_>, code: u64, value: i64) {
-        reach.send(self.device, EventKind::Axis, code, value);
+    fn move_axis(&self, context: &mut TickContext<'_>, code: u64, value: i64) {
+        context.send(self.device, EventKind::Axis, code, value);
     }
 
-    fn tell(&self, reach: &mut Reach<'_>, kind: EventKind) {
-        reach.events.push(DeviceEvent {
-            tick: reach.tick,
+    fn tell(&self, context: &mut TickContext<'_>, kind: EventKind) {
+        context.events.push(DeviceEvent {
+            tick: context.tick,
             device: self.device,
             kind: kind as u64,
             ..DeviceEvent::default()
@@ -96,10 +96,10 @@ impl FlightGearControls {
     }
 }
 
-impl Hands for FlightGearControls {
-    fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
+impl Controller for FlightGearControls {
+    fn act(&mut self, _: &Outputs, context: &mut TickContext<'_>) {
         let report = self.receiver.take();
-        self.update(report.as_ref().map(|report| &report.controls), reach);
+        self.update(report.as_ref().map(|report| &report.controls), context);
     }
 }
 
@@ -145,7 +145,7 @@ mod tests {
         let (mut phase, mut done, mut gave_up) = ((0, ""), false, None);
         device.update(
             controls.as_ref(),
-            &mut Reach {
+            &mut TickContext {
                 tick: 1,
                 events: &mut events,
                 world: &mut world,

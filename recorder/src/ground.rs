@@ -22,7 +22,7 @@ use engine::units::radians;
 use engine::{Aircraft, STEP_S};
 use flightgear::{GroundSample, Receiver, Report};
 
-use crate::hands::{Hands, Reach};
+use crate::controller::{Controller, TickContext};
 
 /// A sample of farther away is none of here, m.
 const NEAR_M: f64 = 150.0;
@@ -52,11 +52,11 @@ impl Ground {
     }
 }
 
-impl Hands for Ground {
-    fn act(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
+impl Controller for Ground {
+    fn act(&mut self, seen: &Outputs, context: &mut TickContext<'_>) {
         let sample = self.receiver.newest_ground();
         if let Some(ground_height_m) = self.filter.update(sample.as_ref(), seen) {
-            reach.world.ground_height_m = ground_height_m;
+            context.world.ground_height_m = ground_height_m;
         }
     }
 }

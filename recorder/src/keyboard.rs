@@ -13,7 +13,7 @@ use engine::units::{knots, mps_of_knots};
 use engine::{Outputs, STEP_NS, STEP_S};
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use crate::hands::{Hands, Reach};
+use crate::controller::{Controller, TickContext};
 use crate::pilots::VirtualDevice;
 use crate::restart::Restart;
 
@@ -262,18 +262,18 @@ impl Keyboard {
         self.device.forget();
     }
 
-    fn obey(&mut self, order: Order, seen: &Outputs, reach: &mut Reach<'_>) {
+    fn obey(&mut self, order: Order, seen: &Outputs, context: &mut TickContext<'_>) {
         match order {
-            Order::Press(action) => self.press(action, seen, reach),
-            Order::Release(action) => self.release(action, reach.tick),
-            Order::Fail(failure) => reach.world.failures.toggle(failure),
-            Order::Restart(restart) => *reach.restart = Some(restart),
+            Order::Press(action) => self.press(action, seen, context),
+            Order::Release(action) => self.release(action, context.tick),
+            Order::Fail(failure) => context.world.failures.toggle(failure),
+            Order::Restart(restart) => *context.restart = Some(restart),
         }
     }
 
-    fn press(&mut self, action: KeyAction, seen: &Outputs, reach: &mut Reach<'_>) {
+    fn press(&mut self, action: KeyAction, seen: &Outputs, context: &mut TickContext<'_>) {
         use KeyAction as K;
-        let tick = reach.tick;
+        let tick = context.tick;
         match action {
             K::StickForward => self.push(AFT, -1.0, tick),
             K::StickAft => self.push(AFT, 1.0, tick),
@@ -293,33 +293,33 @@ impl Keyboard {
             K::LeverDown => self.step(LEVER, -LEVER_NORM),
             K::LeverUpFine => self.step(LEVER, LEVER_FINE_NORM),
             K::LeverDownFine => self.step(LEVER, -LEVER_FINE_NORM),
-            K::NacelleForward | K::NacelleAft | K::Brakes => self.hold(action, reach),
-            K::FlapDown => self.device.tap(reach, ButtonControl::FlapDown),
-            K::FlapUp => self.device.tap(reach, ButtonControl::FlapUp),
-            K::Gear => self.device.tap(reach, ButtonControl::GearToggle),
-            K::ParkingBrake => self.device.tap(reach, ButtonControl::ParkingBrakeToggle),
-            K::Scas => self.device.tap(reach, ButtonControl::ScasToggle),
-            K::RpmSelect => self.device.tap(reach, ButtonControl::RpmSelect),
-            K::Marker => self.device.tap(reach, ButtonControl::Marker),
-            K::Freeze => reach.world.paused ^= 1,
-            K::ResetToStart => *reach.restart = Some(Restart::Start),
-            K::ResetToMarker => *reach.restart = Some(Restart::Marker),
-            K::SaveSituation => *reach.save = true,
-            K::LoadSituation => *reach.restart = Some(Restart::Saved),
-            K::MendAll => reach.world.failures = Failures::empty(),
-            K::WindLeft => wind(reach.world, -WIND_DEG, 0.0, seen),
-            K::WindRight => wind(reach.world, WIND_DEG, 0.0, seen),
-            K::WindWeaker => wind(reach.world, 0.0, -WIND_KT, seen),
-            K::WindStronger => wind(reach.world, 0.0, WIND_KT, seen),
+            K::NacelleForward | K::NacelleAft | K::Brakes => self.hold(action, context),
+            K::FlapDown => self.device.tap(context, ButtonControl::FlapDown),
+            K::FlapUp => self.device.tap(context, ButtonControl::FlapUp),
+            K::Gear => self.device.tap(context, ButtonControl::GearToggle),
+            K::ParkingBrake => self.device.tap(context, ButtonControl::ParkingBrakeToggle),
+            K::Scas => self.device.tap(context, ButtonControl::ScasToggle),
+            K::RpmSelect => self.device.tap(context, ButtonControl::RpmSelect),
+            K::Marker => self.device.tap(context, ButtonControl::Marker),
+            K::Freeze => context.world.paused ^= 1,
+            K::ResetToStart => *context.restart = Some(Restart::Start),
+            K::ResetToMarker => *context.restart = Some(Restart::Marker),
+            K::SaveSituation => *context.save = true,
+            K::LoadSituation => *context.restart = Some(Restart::Saved),
+            K::MendAll => context.world.failures = Failures::empty(),
+            K::WindLeft => wind(context.world, -WIND_DEG, 0.0, seen),
+            K::WindRight => wind(context.world, WIND_DEG, 0.0, seen),
+            K::WindWeaker => wind(context.world, 0.0, -WIND_KT, seen),
+            K::WindStronger => wind(context.world, 0.0, WIND_KT, seen),
             K::Turbulence => {
-                let next_mps = reach.world.turbulence_mps + TURBULENCE_MPS;
+                let next_mps = context.world.turbulence_mps + TURBULENCE_MPS;
                 let over = next_mps > TURBULENCE_MPS_MAX;
-                reach.world.turbulence_mps = if over { 0.0 } else { next_mps };
+                context.world.turbulence_mps = if over { 0.0 } else { next_mps };
             }
             K::Gust => {
-                reach.world.gust_mps = Vec3::new(0.0, 0.0, -GUST_UP_MPS);
-                reach.world.gust_s = GUST_S;
-                reach.world.gust_start_tick = tick;
+                context.world.gust_mps = Vec3::new(0.0, 0.0, -GUST_UP_MPS);
+                context.world.gust_s = GUST_S;
+                context.world.gust_start_tick = tick;
             }
         }
     }
@@ -352,11 +352,11 @@ impl Keyboard {
     }
 
     /// A switch or brake that a key holds.
-    fn hold(&mut self, action: KeyAction, reach: &mut Reach<'_>) {
-        let until_tick = reach.tick + HELD_TICKS;
+    fn hold(&mut self, action: KeyAction, context: &mut TickContext<'_>) {
+        let until_tick = context.tick + HELD_TICKS;
         let Some(held) = self.held.iter_mut().find(|held| held.what == action) else { return };
         if held.until_tick.replace(until_tick).is_none() {
-            set(&mut self.device, reach, action, true);
+            set(&mut self.device, context, action, true);
         }
     }
 
@@ -376,45 +376,45 @@ impl Keyboard {
     }
 
     /// Moves the controls towards where they are to be.
-    fn move_on(&mut self, reach: &mut Reach<'_>) {
+    fn move_on(&mut self, context: &mut TickContext<'_>) {
         let most_norm = RATE_NORM_PER_S * STEP_S;
         for axis in self.axes.iter_mut().filter(|axis| axis.moved) {
-            let push_norm = if reach.tick < axis.until_tick { axis.push_norm } else { 0.0 };
+            let push_norm = if context.tick < axis.until_tick { axis.push_norm } else { 0.0 };
             let low_norm = axis.control.facts().travel.low_norm();
             let to_norm = clamp(axis.rest_norm + push_norm, low_norm, 1.0);
             axis.at_norm += clamp(to_norm - axis.at_norm, -most_norm, most_norm);
-            self.device.set(reach, axis.control, axis.at_norm);
+            self.device.set(context, axis.control, axis.at_norm);
         }
         for held in &mut self.held {
-            if held.until_tick.is_some_and(|until_tick| reach.tick >= until_tick) {
+            if held.until_tick.is_some_and(|until_tick| context.tick >= until_tick) {
                 held.until_tick = None;
-                set(&mut self.device, reach, held.what, false);
+                set(&mut self.device, context, held.what, false);
             }
         }
     }
 }
 
-impl Hands for Keyboard {
-    fn act(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
+impl Controller for Keyboard {
+    fn act(&mut self, seen: &Outputs, context: &mut TickContext<'_>) {
         if std::mem::take(&mut self.fresh) {
             self.take_over(&seen.cockpit);
         }
         while let Ok(order) = self.orders.pop() {
-            self.obey(order, seen, reach);
+            self.obey(order, seen, context);
         }
-        self.move_on(reach);
+        self.move_on(context);
         // What it sees in the next tick is where the controls are then.
-        self.fresh = reach.restart.is_some();
+        self.fresh = context.restart.is_some();
     }
 }
 
-fn set(device: &mut VirtualDevice, reach: &mut Reach<'_>, what: KeyAction, on: bool) {
+fn set(device: &mut VirtualDevice, context: &mut TickContext<'_>, what: KeyAction, on: bool) {
     match what {
-        KeyAction::NacelleForward => device.press(reach, ButtonControl::NacelleForward, on),
-        KeyAction::NacelleAft => device.press(reach, ButtonControl::NacelleAft, on),
+        KeyAction::NacelleForward => device.press(context, ButtonControl::NacelleForward, on),
+        KeyAction::NacelleAft => device.press(context, ButtonControl::NacelleAft, on),
         _ => {
             for brake in [AxisControl::BrakeLeft, AxisControl::BrakeRight] {
-                device.set(reach, brake, f64::from(u8::from(on)));
+                device.set(context, brake, f64::from(u8::from(on)));
             }
         }
     }

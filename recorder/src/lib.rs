@@ -6,7 +6,8 @@
 
 mod clock;
 mod clock_check;
-mod crew;
+mod controller;
+mod controllers;
 pub mod debrief;
 #[cfg(feature = "sticks")]
 pub mod devices;
@@ -14,7 +15,6 @@ mod end;
 mod flight;
 pub mod flightgear_controls;
 pub mod ground;
-mod hands;
 pub mod keyboard;
 mod landing;
 mod live;
@@ -32,9 +32,9 @@ pub mod writer;
 
 pub use clock::{Pace, RealTime, Woken};
 pub use clock_check::{ClockCheck, check_clock};
+pub use controller::{Controller, GaveUp, TickContext};
 pub use end::End;
 pub use flight::{Flight, FlyError};
-pub use hands::{GaveUp, Hands, Reach};
 pub use landing::Landing;
 pub use live::fly;
 pub use platform::{open_pipe, step_aside};

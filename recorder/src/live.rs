@@ -19,7 +19,7 @@ use logs::records::{InputsRecord, RestartRecord, TimingRecord};
 use logs::{FlightWriter, Identity, Observed};
 
 use crate::clock::{Pace, RealTime, Woken, now_ns, wall_ns};
-use crate::crew::Crew;
+use crate::controllers::Controllers;
 use crate::debrief::Debrief;
 use crate::end::End;
 use crate::flight::{Flight, FlyError};
@@ -29,7 +29,7 @@ use crate::progress::{Progress, Shown, Told};
 use crate::restart::{Restarts, Situation};
 use crate::self_check::SelfCheck;
 use crate::statistics::Statistics;
-use crate::writer::{Recording, Saver, ToRecord};
+use crate::writer::{Saver, ToRecord, WriterHandle};
 
 /// Device events taken in one tick; those beyond come in the next.
 const EVENTS_A_TICK: usize = 1024;
@@ -60,7 +60,7 @@ pub(crate) struct Live<'a, S> {
     state: State,
     /// What the hands see: after the last tick, or before the first.
     outputs: Outputs,
-    crew: Crew,
+    controllers: Controllers,
     #[cfg(feature = "sticks")]
     sticks: Option<crate::devices::Devices>,
     restarts: Restarts,
@@ -69,7 +69,7 @@ pub(crate) struct Live<'a, S> {
     /// Of the tick under way.
     events: Vec<DeviceEvent>,
     events_taken: u64,
-    recording: Recording,
+    recording: WriterHandle,
     /// Where the log goes.
     output: Output,
     self_check: Option<SelfCheck>,
@@ -161,7 +161,7 @@ where
         #[cfg(not(feature = "sticks"))]
         let later = None;
         let saver = Saver::beside(&flight.out, &aircraft.name);
-        let mut recording = Recording::start(writer, &aircraft, &state, told, saver, later);
+        let mut recording = WriterHandle::start(writer, &aircraft, &state, told, saver, later);
         let found = Arc::clone(&progress.mismatches);
         let self_check =
             flight.self_check.then(|| SelfCheck::start(&aircraft, &state, tell, found));
@@ -172,7 +172,7 @@ where
             flight.sticks.iter().flat_map(|it| it.refused.clone()).chain(refused).collect();
         let outputs = observe(&aircraft, &state, &world);
         recording.show(&outputs, state.plant.attitude);
-        let crew = Crew::new(flight.hands, world_of_start);
+        let controllers = Controllers::new(flight.controllers, world_of_start);
         let pace = flight.real_time.as_ref().map(Pace::keeping);
         Ok(Self {
             step,
@@ -181,8 +181,8 @@ where
             outputs,
             restarts: Restarts::new(Situation { state, world: world_of_start }),
             restarted: None,
-            events: Vec::with_capacity(EVENTS_A_TICK + crew.events_a_tick()),
-            crew,
+            events: Vec::with_capacity(EVENTS_A_TICK + controllers.events_a_tick()),
+            controllers,
             #[cfg(feature = "sticks")]
             sticks: flight.sticks,
             events_taken: 0,
@@ -205,10 +205,10 @@ where
     /// Flies until the hands are done, the time is up, or someone wants it to end.
     pub(crate) fn fly(mut self) -> Landing {
         let end = loop {
-            if let Some(gave_up) = self.crew.gave_up {
+            if let Some(gave_up) = self.controllers.gave_up {
                 break End::GaveUp(gave_up);
             }
-            if self.crew.done {
+            if self.controllers.done {
                 break End::Done;
             }
             if self.ticks_max.is_some_and(|ticks| self.state.tick >= ticks) {
@@ -268,7 +268,7 @@ where
             sticks.take(tick, &mut self.events, EVENTS_A_TICK);
             self.progress.devices(&self.events);
         }
-        let phase = self.crew.act(tick, &self.outputs, &mut self.events);
+        let phase = self.controllers.act(tick, &self.outputs, &mut self.events);
         self.events_taken += self.events.len() as u64;
         self.restarted = self.restart();
         phase
@@ -276,12 +276,16 @@ where
 
     /// Goes on from another state if the crew wants it.
     fn restart(&mut self) -> Option<RestartRecord> {
-        let restart = self.crew.restart.take()?;
-        let made =
-            self.restarts.made(&restart, &self.aircraft.cockpit, &self.state, &self.crew.world);
+        let restart = self.controllers.restart.take()?;
+        let made = self.restarts.made(
+            &restart,
+            &self.aircraft.cockpit,
+            &self.state,
+            &self.controllers.world,
+        );
         let (record, world) = made?;
         self.state = record.state;
-        self.crew.world = world;
+        self.controllers.world = world;
         self.debrief.restart();
         Some(record)
     }
@@ -295,10 +299,10 @@ where
             self.recording.put(ToRecord::Event(*event));
         }
         let events = self.events.len() as u64;
-        let inputs = InputsRecord { tick, events, world: self.crew.world };
+        let inputs = InputsRecord { tick, events, world: self.controllers.world };
         self.recording.put(ToRecord::Inputs(inputs));
-        if std::mem::take(&mut self.crew.save) {
-            self.restarts.saved(Situation { state: self.state, world: self.crew.world });
+        if std::mem::take(&mut self.controllers.save) {
+            self.restarts.saved(Situation { state: self.state, world: self.controllers.world });
             self.recording.put(ToRecord::Save(self.state));
         }
         if let Some((number, name)) = phase {
@@ -311,10 +315,10 @@ where
     }
 
     fn advance(&mut self) {
-        let inputs = Inputs { events: &self.events, world: self.crew.world };
+        let inputs = Inputs { events: &self.events, world: self.controllers.world };
         let markers = self.state.cockpit.markers;
         (self.state, self.outputs) = (self.step)(&self.aircraft, &self.state, &inputs);
-        self.restarts.look(markers, &self.state, &self.crew.world);
+        self.restarts.look(markers, &self.state, &self.controllers.world);
         self.debrief.add(&self.aircraft.envelope, &self.outputs);
     }
 
@@ -329,7 +333,7 @@ where
         self.recording.show(&self.outputs, self.state.plant.attitude);
         if let Some(check) = &mut self.self_check {
             let restart = self.restarted.as_ref().map(|restarted| &restarted.state);
-            check.put(restart, &self.events, self.crew.world, &self.state);
+            check.put(restart, &self.events, self.controllers.world, &self.state);
         }
         sent_ns
     }
@@ -350,7 +354,7 @@ where
         Some(Picture::of(&Scene {
             aircraft: &self.aircraft,
             outputs: &self.outputs,
-            world: &self.crew.world,
+            world: &self.controllers.world,
             lamps: Lamps { recording, ..Lamps::default() },
         }))
     }
@@ -377,10 +381,10 @@ where
         self.recording.put(ToRecord::Timing(timing));
         self.statistics.add(&timing);
         let (overruns, failed) = (self.statistics.overruns, self.recording.has_failed());
-        self.progress.show(&self.outputs, self.crew.phase.0, overruns, failed);
+        self.progress.show(&self.outputs, self.controllers.phase.0, overruns, failed);
         self.shown.add(&timing);
         if tick.is_multiple_of(SHOWN_TICKS) {
-            self.shown.of(&self.outputs, &self.crew.world, &self.debrief);
+            self.shown.of(&self.outputs, &self.controllers.world, &self.debrief);
             self.progress.show_all(&self.shown);
         }
     }

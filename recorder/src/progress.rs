@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use engine::Outputs;
 use engine::cockpit::{self, Waiting};
 use engine::inputs::{DeviceEvent, EventKind, World};
-use logs::records::{Happening, TimingRecord};
+use logs::records::{FlightEvent, TimingRecord};
 use logs::view::Level;
 
 use crate::debrief::Debrief;
@@ -19,7 +19,7 @@ pub struct Told {
     /// When.
     pub tick: u64,
     /// What happened.
-    pub what: Happening,
+    pub what: FlightEvent,
     /// How grave it is.
     pub level: Level,
     /// In words.

@@ -6,8 +6,8 @@ use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, observe, step};
 
-use crate::crew::Crew;
-use crate::hands::Hands;
+use crate::controller::Controller;
+use crate::controllers::Controllers;
 
 /// One tick of a rehearsal.
 pub struct RehearsedTick<'a> {
@@ -15,7 +15,7 @@ pub struct RehearsedTick<'a> {
     pub state: &'a State,
     /// After the tick.
     pub outputs: &'a Outputs,
-    /// What the hands did.
+    /// What the crew did.
     pub events: &'a [DeviceEvent],
     /// What the world was.
     pub world: &'a World,
@@ -31,25 +31,25 @@ pub struct RehearsedTick<'a> {
 pub fn rehearse(
     aircraft: &Aircraft,
     start: &Start,
-    hands: Vec<Box<dyn Hands>>,
+    controllers: Vec<Box<dyn Controller>>,
     ticks_max: u64,
     mut look: impl FnMut(&RehearsedTick<'_>),
 ) -> Result<(State, Outputs), trim::Failure> {
     let mut state = state_at(start, aircraft)?;
-    let mut crew = Crew::new(hands, start.world.world());
-    let mut outputs = observe(aircraft, &state, &crew.world);
+    let mut controllers = Controllers::new(controllers, start.world.world());
+    let mut outputs = observe(aircraft, &state, &controllers.world);
     let mut events = Vec::new();
-    while !crew.done && state.tick < ticks_max {
+    while !controllers.done && state.tick < ticks_max {
         events.clear();
-        crew.act(state.tick, &outputs, &mut events);
-        let world = crew.world;
+        controllers.act(state.tick, &outputs, &mut events);
+        let world = controllers.world;
         (state, outputs) = step(aircraft, &state, &Inputs { events: &events, world });
         look(&RehearsedTick {
             state: &state,
             outputs: &outputs,
             events: &events,
             world: &world,
-            phase: crew.phase.1,
+            phase: controllers.phase.1,
         });
     }
     Ok((state, outputs))

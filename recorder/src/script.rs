@@ -33,7 +33,7 @@ use engine::{Outputs, STEP_S};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-use crate::hands::{Hands, Reach};
+use crate::controller::{Controller, TickContext};
 use crate::pilots::VirtualDevice;
 use crate::restart::Restart;
 
@@ -191,7 +191,7 @@ impl Script {
         Ok(Self { device, events, next: 0, motions, at })
     }
 
-    fn begin(&mut self, i: usize, reach: &mut Reach<'_>) {
+    fn begin(&mut self, i: usize, context: &mut TickContext<'_>) {
         let (event, axes) = &self.events[i];
         for &(control, to_norm) in axes {
             let from_norm = self.at.iter().find(|(at, _)| *at == control).map_or(0.0, |at| at.1);
@@ -205,42 +205,42 @@ impl Script {
             });
         }
         for &button in event.press.iter().chain(&event.hold) {
-            self.device.press(reach, button, true);
+            self.device.press(context, button, true);
         }
         for &button in event.press.iter().chain(&event.release) {
-            self.device.press(reach, button, false);
+            self.device.press(context, button, false);
         }
         for failure in &event.fail {
-            reach.world.failures.insert(failure.0);
+            context.world.failures.insert(failure.0);
         }
         for failure in &event.mend {
-            reach.world.failures.remove(failure.0);
+            context.world.failures.remove(failure.0);
         }
         if let Some(Wind { from_deg, kt }) = event.wind {
             let (from_rad, mps) = (radians(from_deg), mps_of_knots(kt));
-            reach.world.wind_mps = Vec3::new(-mps * cos(from_rad), -mps * sin(from_rad), 0.0);
+            context.world.wind_mps = Vec3::new(-mps * cos(from_rad), -mps * sin(from_rad), 0.0);
         }
         if let Some(gust) = event.gust {
-            reach.world.gust_mps = Vec3::new(gust.north_mps, gust.east_mps, -gust.up_mps);
-            reach.world.gust_s = gust.s;
-            reach.world.gust_start_tick = reach.tick;
+            context.world.gust_mps = Vec3::new(gust.north_mps, gust.east_mps, -gust.up_mps);
+            context.world.gust_s = gust.s;
+            context.world.gust_start_tick = context.tick;
         }
         if let Some(turbulence_mps) = event.turbulence_mps {
-            reach.world.turbulence_mps = turbulence_mps;
+            context.world.turbulence_mps = turbulence_mps;
         }
         if let Some(pause) = event.pause {
-            reach.world.paused = u64::from(pause);
+            context.world.paused = u64::from(pause);
         }
-        *reach.save |= event.save;
+        *context.save |= event.save;
         if let Some(from) = event.restart {
-            *reach.restart = Some(match from {
+            *context.restart = Some(match from {
                 From::Start => Restart::Start,
                 From::Marker => Restart::Marker,
                 From::Saved => Restart::Saved,
             });
         }
         if event.end {
-            *reach.done = true;
+            *context.done = true;
         }
     }
 }
@@ -290,7 +290,7 @@ fn check_axis(
     }
 }
 
-impl Hands for Script {
+impl Controller for Script {
     fn events_a_tick(&self) -> usize {
         let presses =
             |event: &Event| 2 * event.press.len() + event.hold.len() + event.release.len();
@@ -302,10 +302,10 @@ impl Hands for Script {
         self.device.axes().count() + together.max().unwrap_or(0)
     }
 
-    fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
-        let time_s = reach.tick as f64 * STEP_S;
+    fn act(&mut self, _: &Outputs, context: &mut TickContext<'_>) {
+        let time_s = context.tick as f64 * STEP_S;
         while self.events.get(self.next).is_some_and(|(event, _)| event.at_s <= time_s) {
-            self.begin(self.next, reach);
+            self.begin(self.next, context);
             self.next += 1;
         }
         for motion in &self.motions {
@@ -319,7 +319,7 @@ impl Hands for Script {
                 Some((_, at)) => *at = at_norm,
                 None => self.at.push((motion.control, at_norm)),
             }
-            self.device.set(reach, motion.control, at_norm);
+            self.device.set(context, motion.control, at_norm);
         }
         self.motions.retain(|motion| time_s < motion.start_s + motion.over_s);
     }

@@ -12,12 +12,12 @@ use engine::inputs::{DeviceEvent, World};
 use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, observe, step};
 use logs::output::Output;
-use logs::records::{Happening, InputsRecord};
-use logs::{Closed, FlightWriter, Identity, LogError, Narrator, Observed, Setup};
+use logs::records::{FlightEvent, InputsRecord};
+use logs::{Closed, EventDetector, FlightWriter, Identity, LogError, Observed, Setup};
 
 use crate::clock::wall_ns;
+use crate::controller::TickContext;
 use crate::end::End;
-use crate::hands::Reach;
 use crate::pilots::VirtualDevice;
 
 /// A movement that the next step uses.
@@ -76,7 +76,7 @@ pub enum StepError {
 /// The log being written.
 struct Log {
     writer: FlightWriter,
-    narrator: Narrator,
+    detector: EventDetector,
     output: Output,
 }
 
@@ -187,8 +187,8 @@ impl Stepped {
             writer.view(&self.outputs, self.state.plant.attitude)?;
         }
         output.begun()?;
-        let narrator = Narrator::new(&self.state, &self.aircraft.envelope.airframe);
-        self.log = Some(Log { writer, narrator, output });
+        let detector = EventDetector::new(&self.state, &self.aircraft.envelope.airframe);
+        self.log = Some(Log { writer, detector, output });
         Ok(())
     }
 
@@ -224,7 +224,7 @@ impl Stepped {
         self.events.clear();
         let (mut phase, mut done, mut save) = ((0, ""), false, false);
         let (mut restart, mut gave_up) = (None, None);
-        let mut reach = Reach {
+        let mut context = TickContext {
             tick,
             events: &mut self.events,
             world: &mut self.world,
@@ -236,9 +236,9 @@ impl Stepped {
         };
         for movement in self.movements.drain(..) {
             match movement {
-                Movement::Axis(control, at_norm) => self.device.set(&mut reach, control, at_norm),
+                Movement::Axis(control, at_norm) => self.device.set(&mut context, control, at_norm),
                 Movement::Button(control, pressed) => {
-                    self.device.press(&mut reach, control, pressed);
+                    self.device.press(&mut context, control, pressed);
                 }
             }
         }
@@ -250,9 +250,9 @@ impl Stepped {
     /// When it cannot be closed.
     pub fn close(&mut self, end: End) -> Result<Option<Closed>, LogError> {
         let Some(Log { mut writer, output, .. }) = self.log.take() else { return Ok(None) };
-        writer.happened(
+        writer.flight_event(
             self.state.tick,
-            Happening::Landed,
+            FlightEvent::Landed,
             end.number(),
             [0.0; 2],
             &end.to_string(),
@@ -267,16 +267,16 @@ impl Log {
     fn inputs(&mut self, tick: u64, events: &[DeviceEvent], world: World) -> Result<(), LogError> {
         for event in events {
             self.writer.event(event)?;
-            self.narrator.event(&mut self.writer, event)?;
+            self.detector.event(&mut self.writer, event)?;
         }
         let inputs = InputsRecord { tick, events: events.len() as u64, world };
         self.writer.inputs(&inputs)?;
-        self.narrator.inputs(&mut self.writer, &inputs)
+        self.detector.inputs(&mut self.writer, &inputs)
     }
 
     fn state(&mut self, state: &State, outputs: &Outputs) -> Result<(), LogError> {
         self.writer.state(state)?;
-        self.narrator.state(&mut self.writer, state, &Observed::of(outputs))?;
+        self.detector.state(&mut self.writer, state, &Observed::of(outputs))?;
         self.writer.view(outputs, state.plant.attitude)
     }
 }
@@ -334,7 +334,7 @@ mod tests {
             setup: setup("map"),
             identity: Identity::new(),
             robot_description: String::new(),
-            hands: vec![Box::new(script)],
+            controllers: vec![Box::new(script)],
             #[cfg(feature = "sticks")]
             sticks: None,
             out: folder.join("flown"),

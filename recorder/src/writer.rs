@@ -15,8 +15,8 @@ use engine::frames::Attitude;
 use engine::inputs::{DeviceEvent, World};
 use engine::{Aircraft, Outputs, State};
 use logs::devices::DeviceIdentity;
-use logs::records::{Happening, InputsRecord, RestartRecord, TIMING_FACTS, TimingRecord};
-use logs::{Closed, FlightWriter, LogError, Narrator, Observed};
+use logs::records::{FlightEvent, InputsRecord, RestartRecord, TIMING_FACTS, TimingRecord};
+use logs::{Closed, EventDetector, FlightWriter, LogError, Observed};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::clock::{Awake, now_ns};
@@ -75,7 +75,7 @@ pub enum ToRecord {
 }
 
 /// The loop's end of the hand-over.
-pub struct Recording {
+pub struct WriterHandle {
     ring: Producer<ToRecord>,
     overflow: VecDeque<ToRecord>,
     view: Producer<(Outputs, Attitude)>,
@@ -89,7 +89,7 @@ pub struct Recording {
     pub backlog_max: usize,
 }
 
-impl Recording {
+impl WriterHandle {
     /// Starts the thread; `mismatches` is what a self-check finds, `devices` are those that come later.
     pub fn start(
         writer: FlightWriter,
@@ -107,11 +107,11 @@ impl Recording {
         let awake = Arc::new(Awake::default());
         awake.beat(now_ns());
         let facts = Arc::default();
-        let scribe = Scribe {
+        let writer_thread = WriterThread {
             writer: Some(writer),
             entries,
             views,
-            narrator: Narrator::new(initial, &aircraft.envelope.airframe),
+            detector: EventDetector::new(initial, &aircraft.envelope.airframe),
             mismatches,
             devices,
             saver,
@@ -126,7 +126,7 @@ impl Recording {
             done: Arc::clone(&done),
             error: None,
         };
-        let thread = thread::spawn(move || scribe.run());
+        let thread = thread::spawn(move || writer_thread.run());
         Self {
             facts,
             ring,
@@ -264,11 +264,11 @@ fn writer_died() -> LogError {
 }
 
 /// The thread's end.
-struct Scribe {
+struct WriterThread {
     writer: Option<FlightWriter>,
     entries: Consumer<ToRecord>,
     views: Consumer<(Outputs, Attitude)>,
-    narrator: Narrator,
+    detector: EventDetector,
     mismatches: Receiver<Mismatch>,
     devices: Option<Receiver<DeviceIdentity>>,
     saver: Saver,
@@ -289,7 +289,7 @@ struct Scribe {
     error: Option<LogError>,
 }
 
-impl Scribe {
+impl WriterThread {
     fn run(mut self) -> (Result<Closed, LogError>, Delay) {
         let mut flushed = Instant::now();
         loop {
@@ -354,8 +354,8 @@ impl Scribe {
             "the log's writer was held up for {:.1} s; {waiting} entries waited, none was lost",
             took.as_secs_f64()
         );
-        let (what, ms) = (Happening::WriterHeldUp, took.as_millis() as u64);
-        let written = writer.happened(self.tick, what, ms, [0.0; 2], &words);
+        let (what, ms) = (FlightEvent::WriterHeldUp, took.as_millis() as u64);
+        let written = writer.flight_event(self.tick, what, ms, [0.0; 2], &words);
         self.keep(written);
     }
 
@@ -366,7 +366,7 @@ impl Scribe {
             "self-check: tick {tick}, reflown in flight, was not the same: {fields} numbers of the \
              state, first {path}"
         );
-        writer.happened(*tick, Happening::SelfCheck, *fields, [0.0; 2], &words)
+        writer.flight_event(*tick, FlightEvent::SelfCheck, *fields, [0.0; 2], &words)
     }
 
     /// Writes an entry; log times never go back, so the state of a tick waits for the tick's timing.
@@ -378,22 +378,22 @@ impl Scribe {
         match entry {
             ToRecord::Event(event) => {
                 writer.event(event)?;
-                self.narrator.event(writer, event)
+                self.detector.event(writer, event)
             }
             ToRecord::Restart(restart) => {
                 writer.restart(restart)?;
-                self.narrator.restart(writer, restart)
+                self.detector.restart(writer, restart)
             }
             ToRecord::Save(state) => {
                 let situation = Situation { state: *state, world: self.world };
                 let (number, words) = self.saver.save(&situation);
-                let what = Happening::SituationSaved;
-                writer.happened(state.tick, what, number, [0.0; 2], &words)
+                let what = FlightEvent::SituationSaved;
+                writer.flight_event(state.tick, what, number, [0.0; 2], &words)
             }
             ToRecord::Inputs(inputs) => {
                 self.world = inputs.world;
                 writer.inputs(inputs)?;
-                self.narrator.inputs(writer, inputs)
+                self.detector.inputs(writer, inputs)
             }
             ToRecord::State(state, seen) => {
                 self.held = Some((*state, *seen));
@@ -404,20 +404,20 @@ impl Scribe {
                 self.release()
             }
             ToRecord::Phase(tick, number, name) => {
-                writer.happened(*tick, Happening::Phase, *number, [0.0; 2], name)
+                writer.flight_event(*tick, FlightEvent::Phase, *number, [0.0; 2], name)
             }
             ToRecord::Slip(tick, slip_ns) => {
                 let words = slipped(*slip_ns);
                 let ms = slip_ns / 1_000_000;
-                writer.happened(*tick, Happening::Slip, ms, [0.0; 2], &words)
+                writer.flight_event(*tick, FlightEvent::Slip, ms, [0.0; 2], &words)
             }
             ToRecord::Landed(tick, end) => {
                 if let End::GaveUp(gave_up) = end {
                     let (number, words) = (gave_up.number, gave_up.to_string());
-                    writer.happened(*tick, Happening::GaveUp, number, [0.0; 2], &words)?;
+                    writer.flight_event(*tick, FlightEvent::GaveUp, number, [0.0; 2], &words)?;
                 }
                 let words = end.to_string();
-                writer.happened(*tick, Happening::Landed, end.number(), [0.0; 2], &words)
+                writer.flight_event(*tick, FlightEvent::Landed, end.number(), [0.0; 2], &words)
             }
         }
     }
@@ -428,7 +428,7 @@ impl Scribe {
         if let Some((state, seen)) = self.held.take() {
             self.tick = state.tick;
             writer.state(&state)?;
-            self.narrator.state(writer, &state, &seen)?;
+            self.detector.state(writer, &state, &seen)?;
         }
         while self.views.peek().is_ok_and(|(outputs, _)| outputs.tick <= self.tick) {
             if let Ok((outputs, attitude)) = self.views.pop() {

@@ -6,7 +6,7 @@ use engine::outputs::Validity;
 use engine::units::RPM_RADPS as RPM;
 use engine::{Aircraft, Outputs};
 use recorder::pilots::Pilot;
-use recorder::{Hands, Reach, rehearse};
+use recorder::{Controller, TickContext, rehearse};
 
 const TICKS_PER_S: u64 = 250;
 /// The gear's reserve, m/s: 12.25 ft/s (TM X-62,407 §10.6); the rate it was designed for is 3.05.
@@ -17,10 +17,10 @@ const ROTORS_RPM: [f64; 2] = [471.0, 661.0];
 /// Both engines stop a second after the beginning.
 struct EnginesStop;
 
-impl Hands for EnginesStop {
-    fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
-        if reach.tick >= TICKS_PER_S {
-            reach.world.failures = Failures::ENGINES;
+impl Controller for EnginesStop {
+    fn act(&mut self, _: &Outputs, context: &mut TickContext<'_>) {
+        if context.tick >= TICKS_PER_S {
+            context.world.failures = Failures::ENGINES;
         }
     }
 }
@@ -42,7 +42,7 @@ fn way_down(xv15: &Aircraft, speed_kt: f64, altitude_ft: f64) -> Story {
     let scenario = format!("{}\n{trim}", aircraft::DEFAULT_SCENARIO);
     let start = aircraft::start("scenario.toml", &scenario).unwrap_or_else(|e| panic!("{e}"));
     let pilot = Pilot::named("land", &xv15.cockpit, &xv15.envelope.corridor).expect("land");
-    let hands: Vec<Box<dyn Hands>> = vec![Box::new(pilot), Box::new(EnginesStop)];
+    let controllers: Vec<Box<dyn Controller>> = vec![Box::new(pilot), Box::new(EnginesStop)];
     let mut story = Story {
         rpm: [f64::INFINITY, 0.0],
         glide_sink_mps: 0.0,
@@ -51,7 +51,7 @@ fn way_down(xv15: &Aircraft, speed_kt: f64, altitude_ft: f64) -> Story {
         end: Outputs::default(),
     };
     let mut before = Outputs::default();
-    let flown = rehearse(xv15, &start, hands, 120 * TICKS_PER_S, |now| {
+    let flown = rehearse(xv15, &start, controllers, 120 * TICKS_PER_S, |now| {
         let seen = now.outputs;
         if now.state.plant.weight_on_wheels == 1 {
             story.touchdown.get_or_insert(before);

@@ -1,10 +1,10 @@
-//! A hover in steady air is quiet: hands that have nothing to do rest.
+//! A hover in steady air is quiet: controllers that have nothing to do rest.
 
 use engine::Outputs;
 use engine::math::max;
 use engine::units::DEGREE_RAD as DEG;
 use recorder::pilots::Pilot;
-use recorder::{Hands, rehearse};
+use recorder::{Controller, rehearse};
 
 const TICKS_PER_S: u64 = 250;
 /// From the ground to a hover that has settled, and how long it is watched, s.
@@ -37,11 +37,11 @@ fn a_hover_in_steady_air_is_quiet() {
         let start = aircraft::start("scenario.toml", &scenario).unwrap_or_else(|e| panic!("{e}"));
         let corridor = &xv15.envelope.corridor;
         let pilot = Pilot::named("hover", &xv15.cockpit, corridor).expect("hover");
-        let hands: Vec<Box<dyn Hands>> = vec![Box::new(pilot)];
+        let controllers: Vec<Box<dyn Controller>> = vec![Box::new(pilot)];
         let mut rest: Option<[f64; 3]> = None;
         let (mut moved, mut turning, mut drifting) = (0.0, 0.0, 0.0);
         let ticks = (SETTLING_S + WATCHED_S) * TICKS_PER_S;
-        let flown = rehearse(&xv15, &start, hands, ticks, |now| {
+        let flown = rehearse(&xv15, &start, controllers, ticks, |now| {
             let seen = now.outputs;
             if now.state.tick < SETTLING_S * TICKS_PER_S {
                 return;

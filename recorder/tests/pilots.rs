@@ -10,7 +10,7 @@ use engine::start::Start;
 use engine::units::{DEGREE_RAD as DEG, KNOT_MPS, RPM_RADPS as RPM};
 use engine::{Aircraft, Outputs, State};
 use recorder::pilots::{PILOTS, Pilot};
-use recorder::{Flight, Hands, Progress, Reach, RehearsedTick, fly, rehearse};
+use recorder::{Controller, Flight, Progress, RehearsedTick, TickContext, fly, rehearse};
 
 const TICKS_PER_S: u64 = 250;
 
@@ -60,7 +60,7 @@ fn aloft(nacelle_deg: f64, speed_kt: f64) -> Start {
     ))
 }
 
-fn pilot(name: &str, aircraft: &Aircraft) -> Vec<Box<dyn Hands>> {
+fn pilot(name: &str, aircraft: &Aircraft) -> Vec<Box<dyn Controller>> {
     let corridor = &aircraft.envelope.corridor;
     vec![Box::new(Pilot::named(name, &aircraft.cockpit, corridor).expect(name))]
 }
@@ -424,10 +424,10 @@ struct Fails {
     failures: Failures,
 }
 
-impl Hands for Fails {
-    fn act(&mut self, _: &Outputs, reach: &mut Reach<'_>) {
-        if reach.tick as f64 * engine::STEP_S >= self.at_s {
-            reach.world.failures = self.failures;
+impl Controller for Fails {
+    fn act(&mut self, _: &Outputs, context: &mut TickContext<'_>) {
+        if context.tick as f64 * engine::STEP_S >= self.at_s {
+            context.world.failures = self.failures;
         }
     }
 }
@@ -479,7 +479,7 @@ fn a_rehearsal_has_the_bits_of_the_flight() {
         },
         identity: logs::Identity::new(),
         robot_description: String::new(),
-        hands: pilot("demo", &xv15),
+        controllers: pilot("demo", &xv15),
         #[cfg(feature = "sticks")]
         sticks: None,
         out: out.clone(),

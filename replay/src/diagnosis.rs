@@ -6,7 +6,7 @@ use engine::{Aircraft, Inputs, Outputs, State, step};
 use logs::{LogError, Tick, cdr};
 
 use crate::compare::Names;
-use crate::divergence::{Divergence, LastInput, Parted, SingleSteps};
+use crate::divergence::{Divergence, LastInput, OneStepCheck, StatePair};
 use crate::refly::Reflight;
 
 /// The first difference, if there is one, and what is known of it so far.
@@ -46,7 +46,8 @@ impl Diagnosis {
             return self.add_compacted(tick, flight, same);
         }
         let recorded = &flight.reader.tick;
-        let parted = Parted { tick, recorded: &recorded.state_message, reflown: flight.message() };
+        let parted =
+            StatePair { tick, recorded: &recorded.state_message, reflown: flight.message() };
         match (&mut self.divergence, same) {
             (None, Some(same)) => {
                 self.last_input.add(&recorded.events, &recorded.inputs)?;
@@ -92,7 +93,8 @@ impl Diagnosis {
         if same.is_none() || !flight.reader.is_recorded() {
             return Ok(());
         }
-        let parted = Parted { tick, recorded: &recorded.state_message, reflown: flight.message() };
+        let parted =
+            StatePair { tick, recorded: &recorded.state_message, reflown: flight.message() };
         match &mut self.divergence {
             Some(divergence) => divergence.growth.add(tick, parted.recorded, parted.reflown),
             None if same == Some(false) => {
@@ -145,7 +147,7 @@ impl SingleStepper {
         aircraft: &Aircraft,
         before: &State,
         recorded: &Tick,
-        single: &mut SingleSteps,
+        single: &mut OneStepCheck,
     ) -> Result<(), LogError> {
         let inputs = Inputs { events: &recorded.events, world: recorded.inputs.world };
         let (stepped, outputs) = step(aircraft, &recorded.begins_with(before), &inputs);
@@ -156,7 +158,7 @@ impl SingleStepper {
         Ok(())
     }
 
-    fn blocks(&mut self, recorded: &[Outputs], single: &mut SingleSteps) -> Result<(), LogError> {
+    fn blocks(&mut self, recorded: &[Outputs], single: &mut OneStepCheck) -> Result<(), LogError> {
         for recorded in recorded {
             if let Some(stepped) = self.outputs.remove(&recorded.tick)
                 && single.block.is_none()

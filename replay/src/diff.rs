@@ -10,7 +10,7 @@ use logs::records::{InputsRecord, RestartRecord};
 use logs::{FlightReader, LogError, Setup, cdr};
 
 use crate::compare::{Difference, Names};
-use crate::divergence::{Divergence, LastInput, Parted};
+use crate::divergence::{Divergence, LastInput, StatePair};
 use crate::judgement::{End, Facts, Judgement};
 use crate::refly::Window;
 use crate::ticks::Irregular;
@@ -313,7 +313,7 @@ impl Comparison {
         match &mut self.first {
             Some(first) => first.growth.add(tick, &a.state, &b.state),
             None if a.state != b.state => {
-                let parted = Parted { tick, recorded: &a.state, reflown: &b.state };
+                let parted = StatePair { tick, recorded: &a.state, reflown: &b.state };
                 // Which control an axis moved is in both logs' cockpit maps, and may differ.
                 let input = self.last_input.told(&engine::cockpit::Params::default());
                 self.first = Divergence::new(&self.states, &parted, input)?.map(Box::new);

@@ -38,13 +38,13 @@ pub struct Divergence {
     /// How the difference grew while the reflight went on by the recorded inputs.
     pub growth: Growth,
     /// How single steps from the recorded states did.
-    pub single: SingleSteps,
+    pub single: OneStepCheck,
 }
 
 /// Steps of one tick each, from every recorded state of the window: differences that do not add up. Of a
 /// compacted log, only the states at keyframes were recorded, and each step goes from one to the next.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct SingleSteps {
+pub struct OneStepCheck {
     /// How many were flown.
     pub ticks: u64,
     /// How many did not lead to the recorded state.
@@ -182,7 +182,7 @@ fn moves(map: &Cockpit, event: &DeviceEvent) -> String {
 }
 
 /// The states after the first tick that differs, as messages.
-pub(crate) struct Parted<'a> {
+pub(crate) struct StatePair<'a> {
     pub(crate) tick: u64,
     pub(crate) recorded: &'a [u8],
     pub(crate) reflown: &'a [u8],
@@ -192,7 +192,7 @@ impl Divergence {
     /// What there is to say at once.
     pub(crate) fn new(
         names: &Names,
-        at: &Parted,
+        at: &StatePair,
         last_input: Option<InputChange>,
     ) -> Result<Option<Self>, LogError> {
         let mut found: Vec<_> = names
@@ -220,12 +220,12 @@ impl Divergence {
             stages,
             last_input,
             growth,
-            single: SingleSteps::default(),
+            single: OneStepCheck::default(),
         }))
     }
 }
 
-impl SingleSteps {
+impl OneStepCheck {
     /// What a step from the recorded state before gave, beside the recorded state after it.
     pub(crate) fn add(&mut self, names: &Names, recorded: &[u8], stepped: &[u8]) {
         self.ticks += 1;

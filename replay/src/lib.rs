@@ -31,7 +31,7 @@ pub use bless::{KEYFRAME_TICKS, Largest, Moved, bless};
 pub use diff::{
     Diff, EventsDifference, Extent, FileDifference, FirstEvent, KeyDifference, Side, Which, diff,
 };
-pub use divergence::{BlockDifference, Divergence, InputChange, SingleSteps};
+pub use divergence::{BlockDifference, Divergence, InputChange, OneStepCheck};
 pub use judgement::{End, Facts, Judgement, Outcome, judge};
 pub use made::{proven, proven_while};
 pub use outputs::OutputsDifference;

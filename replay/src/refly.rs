@@ -6,7 +6,7 @@ use crate::outputs::{OutputsCheck, OutputsDifference, are_todays};
 use crate::versions::Versions;
 use engine::start::Start;
 use engine::{Aircraft, Inputs, Outputs, State, observe, step, step_state};
-use logs::compact::Flown;
+use logs::compact::FlightModel;
 use logs::{Ending, FlightReader, LogError, OpenOptions, Setup, Tick, cdr};
 
 /// Why a log cannot be reflown.
@@ -65,18 +65,18 @@ pub const OPEN: OpenOptions = OpenOptions { aircraft_of: Some(flown), across_ver
 ///
 /// # Errors
 /// [`LogError::Setup`] when the log's files cannot be read.
-pub fn flown(setup: &Setup) -> Result<Flown, LogError> {
+pub fn flown(setup: &Setup) -> Result<FlightModel, LogError> {
     read(setup).map_err(|error| LogError::Setup(error.to_string()))
 }
 
 /// The aircraft of a log with its cockpit map, and the world at the start.
-pub(crate) fn read(setup: &Setup) -> Result<Flown, aircraft::ConfigError> {
+pub(crate) fn read(setup: &Setup) -> Result<FlightModel, aircraft::ConfigError> {
     let aircraft = aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)?
         .with_cockpit(aircraft::cockpit("cockpit.toml", &setup.cockpit_toml)?);
     // A flight does not need it once it has begun, but a log whose scenario cannot be read is not
     // whole.
     let start = aircraft::start("scenario.toml", &setup.scenario_toml)?;
-    Ok(Flown { aircraft, world: start.world.world() })
+    Ok(FlightModel { aircraft, world: start.world.world() })
 }
 
 /// A log being reflown.

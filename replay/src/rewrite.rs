@@ -6,11 +6,11 @@ use engine::inputs::World;
 use engine::{Inputs, Outputs, State, observe, step};
 use logs::devices::DeviceIdentity;
 use logs::output::Output;
-use logs::records::{EventRecord, Happening, InputsRecord};
-use logs::view::Remark;
+use logs::records::{EventRecord, FlightEvent, InputsRecord};
+use logs::view::LogLine;
 use logs::{
-    Closed, Ending, FlightReader, FlightWriter, Identity, LogError, Messages, Narrator, Observed,
-    Setup, Tick,
+    Closed, Ending, EventDetector, FlightReader, FlightWriter, Identity, LogError, Messages,
+    Observed, Setup, Tick,
 };
 
 use crate::refly::{OPEN, ReplayError, read};
@@ -117,7 +117,7 @@ pub fn rewrite_in(
         FlightWriter::create(new.out.file()?, new.setup, new.identity, aircraft, &shape, initial)?;
     let mut touchdown_ticks = Vec::new();
     let mut written = || -> Result<(), ReplayError> {
-        let mut narrator = Narrator::new(initial, &aircraft.envelope.airframe);
+        let mut detector = EventDetector::new(initial, &aircraft.envelope.airframe);
         let mut state = *initial;
         let log = new.picture_of.filter(|_| same_aircraft && reader.initial == *initial);
         let pictured = log.map(|log| take_picture(log, state.tick, &mut writer)).transpose()?;
@@ -132,15 +132,15 @@ pub fn rewrite_in(
             let tick = &reader.tick;
             if let Some(restart) = &tick.restart {
                 writer.restart(restart)?;
-                narrator.restart(&mut writer, restart)?;
+                detector.restart(&mut writer, restart)?;
             }
             for event in &tick.events {
                 writer.event(event)?;
-                narrator.event(&mut writer, event)?;
+                detector.event(&mut writer, event)?;
             }
             let inputs = InputsRecord { world: change(tick.inputs.world)?, ..tick.inputs };
             writer.inputs(&inputs)?;
-            narrator.inputs(&mut writer, &inputs)?;
+            detector.inputs(&mut writer, &inputs)?;
             crew_said(reader, &mut writer, new.timing, &mut touchdown_ticks)?;
             for device in reader.devices.drain(..).filter(|device| device.tick > initial.tick) {
                 writer.device(&device)?;
@@ -153,7 +153,7 @@ pub fn rewrite_in(
                 writer.timing(&timing)?;
             }
             writer.state(&state)?;
-            narrator.state(&mut writer, &state, &Observed::of(&outputs))?;
+            detector.state(&mut writer, &state, &Observed::of(&outputs))?;
             writer.view(&outputs, state.plant.attitude)?;
             watch(&reader.tick, &state, &outputs, reader);
             reader.outputs.retain(|outputs| outputs.tick > state.tick);
@@ -187,21 +187,24 @@ fn crew_said(
     timing: bool,
     touchdown_ticks: &mut Vec<u64>,
 ) -> Result<(), LogError> {
-    let remarks: Vec<Remark> = reader.remarks.drain(..).collect();
-    let happenings: Vec<EventRecord> = reader.happenings.drain(..).collect();
+    let log_lines: Vec<LogLine> = reader.log_lines.drain(..).collect();
+    let events: Vec<EventRecord> = reader.events.drain(..).collect();
     let touchdown =
-        |event: &&EventRecord| event.kind == Happening::WeightOnWheels as u64 && event.value == 1;
-    touchdown_ticks.extend(happenings.iter().filter(touchdown).map(|event| event.tick));
-    for (event, remark) in happenings.iter().zip(&remarks) {
-        let Some(what) = Happening::from_u64(event.kind) else { continue };
+        |event: &&EventRecord| event.kind == FlightEvent::WeightOnWheels as u64 && event.value == 1;
+    touchdown_ticks.extend(events.iter().filter(touchdown).map(|event| event.tick));
+    for (event, line) in events.iter().zip(&log_lines) {
+        let Some(what) = FlightEvent::from_u64(event.kind) else { continue };
         let known_by_machine =
-            matches!(what, Happening::Slip | Happening::WriterHeldUp | Happening::SelfCheck);
+            matches!(what, FlightEvent::Slip | FlightEvent::WriterHeldUp | FlightEvent::SelfCheck);
         let by_crew = matches!(
             what,
-            Happening::Phase | Happening::Landed | Happening::GaveUp | Happening::SituationSaved
+            FlightEvent::Phase
+                | FlightEvent::Landed
+                | FlightEvent::GaveUp
+                | FlightEvent::SituationSaved
         );
         if by_crew || timing && known_by_machine {
-            writer.happened(event.tick, what, event.value, event.measured, &remark.words)?;
+            writer.flight_event(event.tick, what, event.value, event.measured, &line.words)?;
         }
     }
     Ok(())

@@ -148,7 +148,7 @@ pub(crate) fn fly(
     let (stopped, proven, mut facts) = thread::scope(|scope| {
         // What ends here, by a panic too, lets go of the channel: who waits for more goes home.
         let mut reading = reading;
-        let mut crew = 0;
+        let mut controllers = 0;
         for _ in 0..others {
             let (waiting, back) = (&waiting, back.clone());
             let work = move || work(aircraft, outputs_ticks, waiting, &back);
@@ -156,10 +156,10 @@ pub(crate) fn fly(
             if thread::Builder::new().spawn_scoped(scope, work).is_err() {
                 break;
             }
-            crew += 1;
+            controllers += 1;
         }
         drop(back);
-        if crew == 0 {
+        if controllers == 0 {
             // Nobody takes anything from the channel: who reads flies.
             reading.to_fly = sync_channel(0).0;
         }

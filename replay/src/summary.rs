@@ -8,7 +8,7 @@ use std::path::Path;
 use engine::math::{max, sqrt, square};
 use engine::units::{DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RPM_PER_RADPS};
 use engine::{Outputs, STEP_S, State};
-use logs::view::Remark;
+use logs::view::LogLine;
 
 use crate::judgement::{Facts, Judgement, Outcome, disorder};
 use crate::refly::{Reflight, ReflyOptions, ReplayError, Window};
@@ -124,7 +124,7 @@ pub struct Summary {
     /// Last state.
     pub last: State,
     /// What happened, in words.
-    pub remarks: Vec<Remark>,
+    pub log_lines: Vec<LogLine>,
     /// Greatest and least values, touchdowns.
     pub gathered: Gathered,
     /// Last digest.
@@ -160,12 +160,12 @@ pub fn summary(log: &Path, window: &Window) -> Result<Summary, ReplayError> {
         }
     };
     facts.end_of_reflight(&mut flight, disorder, window);
-    let remarks = std::mem::take(&mut flight.reader.remarks);
+    let log_lines = std::mem::take(&mut flight.reader.log_lines);
     let digest = flight.reader.digest();
     Ok(Summary {
         first_tick,
         last: flight.state,
-        remarks,
+        log_lines,
         gathered,
         digest,
         facts: std::mem::take(&mut flight.reader.other_facts),
@@ -187,8 +187,8 @@ impl fmt::Display for Summary {
         let ticks = self.last.tick - self.first_tick;
         let (from, to) = (s(self.first_tick), s(self.last.tick));
         writeln!(f, "{ticks} ticks, {from:.3} s to {to:.3} s")?;
-        for remark in &self.remarks {
-            writeln!(f, "{:>10.3} s  {}", remark.time_ns as f64 * 1e-9, remark.words)?;
+        for line in &self.log_lines {
+            writeln!(f, "{:>10.3} s  {}", line.time_ns as f64 * 1e-9, line.words)?;
         }
         for (name, unit, least, greatest) in self.gathered.extremes() {
             writeln!(

@@ -9,7 +9,7 @@ use logs::fields::Value;
 use logs::text::at;
 use logs::units::{unit_of, with_unit};
 
-use crate::divergence::{Divergence, InputChange, SingleSteps};
+use crate::divergence::{Divergence, InputChange, OneStepCheck};
 use crate::growth::{Checkpoint, Growth, WINDOW_TICKS};
 use crate::judgement::{End, Outcome};
 use crate::stage::Stage;
@@ -124,8 +124,8 @@ impl fmt::Display for Divergence {
     }
 }
 
-fn write_single(f: &mut fmt::Formatter<'_>, single: &SingleSteps) -> fmt::Result {
-    let SingleSteps { ticks, differing, first_stages, .. } = single;
+fn write_single(f: &mut fmt::Formatter<'_>, single: &OneStepCheck) -> fmt::Result {
+    let OneStepCheck { ticks, differing, first_stages, .. } = single;
     if single.between_keyframes {
         return writeln!(
             f,

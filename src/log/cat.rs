@@ -29,7 +29,7 @@ pub struct Args {
     /// Only fields of this name, * and ? allowed: '*.velocity_mps.*', load_factor
     #[arg(long, value_name = "GLOB")]
     field: Vec<String>,
-    /// Only every Nth tick; device events and happenings are printed all the same
+    /// Only every Nth tick; device events and flight events are printed all the same
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
     #[command(flatten)]

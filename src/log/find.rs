@@ -7,7 +7,7 @@ use engine::STEP_S;
 use engine::cockpit;
 use engine::inputs::{DeviceEvent, EventKind, World};
 use logs::fields::{Field, fields};
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::{Ending, FlightReader, LogError, OpenOptions};
 use replay::Outcome;
 
@@ -40,7 +40,7 @@ struct Found {
 /// Prints what happened, and every change of the world and of a button, in order of time.
 pub fn run(args: &Args) -> Result<Status> {
     let name = args.log.display();
-    let known = || Happening::KEYS.iter().copied().chain([WORLD, BUTTON]);
+    let known = || FlightEvent::KEYS.iter().copied().chain([WORLD, BUTTON]);
     if let Some(odd) = args.kind.iter().find(|kind| !known().any(|key| key == kind.as_str())) {
         bail!("--kind {odd}: expected one of {}", known().collect::<Vec<_>>().join(", "));
     }
@@ -114,9 +114,9 @@ fn search(
         }
         reader.timings.clear();
     };
-    for (event, remark) in reader.happenings.iter().zip(&reader.remarks) {
-        let kind = Happening::from_u64(event.kind).map_or("unknown", |known| known.facts().key);
-        found.push(Found { tick: event.tick, kind, words: remark.words.clone() });
+    for (event, line) in reader.events.iter().zip(&reader.log_lines) {
+        let kind = FlightEvent::from_u64(event.kind).map_or("unknown", |known| known.facts().key);
+        found.push(Found { tick: event.tick, kind, words: line.words.clone() });
     }
     Ok(disorder)
 }

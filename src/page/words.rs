@@ -4,7 +4,7 @@ use engine::STEP_S;
 use engine::math::max;
 use engine::outputs::{Severity, Validity};
 use engine::units::{FOOT_M, NAUTICAL_MILE_M, knots};
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::view::Level;
 use replay::figures::{Configuration, Happened};
 
@@ -16,8 +16,8 @@ pub fn summary(flown: &Afterwards) -> Vec<String> {
     sentences.push(what_was_flown(flown));
     sentences.extend(configurations(flown));
     sentences.extend(ground(flown));
-    let failed: Vec<String> = of(flown, Happening::Failures)
-        .chain(of(flown, Happening::GaveUp))
+    let failed: Vec<String> = of(flown, FlightEvent::Failures)
+        .chain(of(flown, FlightEvent::GaveUp))
         .map(|event| format!("At {} {}.", s(event.tick), event.words))
         .collect();
     sentences.extend(failed);
@@ -28,7 +28,7 @@ pub fn summary(flown: &Afterwards) -> Vec<String> {
 pub fn crash(flown: &Afterwards) -> Option<String> {
     let met = flown.debrief.validity.told().find(|facts| facts.severity == Severity::Final)?;
     let event = flown.flight.happened.iter().find(|event| {
-        event.what == Some(Happening::Impact) && event.level == Level::Error
+        event.what == Some(FlightEvent::Impact) && event.level == Level::Error
             || event.words.contains(met.words)
     });
     let when =
@@ -87,7 +87,7 @@ fn article(configuration: Configuration) -> &'static str {
 
 /// Lift-offs and touchdowns.
 fn ground(flown: &Afterwards) -> Vec<String> {
-    let told: Vec<String> = of(flown, Happening::WeightOnWheels)
+    let told: Vec<String> = of(flown, FlightEvent::WeightOnWheels)
         .map(|event| format!("{} at {}", event.short(), s(event.tick)))
         .collect();
     match told.len() {
@@ -99,7 +99,7 @@ fn ground(flown: &Afterwards) -> Vec<String> {
     }
 }
 
-fn of(flown: &Afterwards, what: Happening) -> impl Iterator<Item = &Happened> {
+fn of(flown: &Afterwards, what: FlightEvent) -> impl Iterator<Item = &Happened> {
     flown.flight.happened.iter().filter(move |event| event.what == Some(what))
 }
 

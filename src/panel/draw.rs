@@ -498,7 +498,7 @@ mod tests {
         let now =
             Snapshot { tick: 1234, phase: 1, slips: 1, slipped_s: 0.5, ..Snapshot::default() };
         let words = "failed: left engine".into();
-        let what = logs::records::Happening::Failures;
+        let what = logs::records::FlightEvent::Failures;
         let told = VecDeque::from([Told { tick: 1200, what, level: Level::Warn, words }]);
         let look = Look { cockpit: &cockpit, page, shown, now: &now, told: &told, colours: false };
         let mut terminal = Terminal::new(TestBackend::new(size.0, size.1)).unwrap();

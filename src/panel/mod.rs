@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use crossterm::event::{Event, KeyEventKind, poll, read};
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::view::Level;
 use recorder::keyboard::{KeyAction, Order, Orders};
 use recorder::{Progress, Restart, Situation, Told};
@@ -62,7 +62,7 @@ impl Panel {
         let mut saved = false;
         while flying() {
             for event in progress.told() {
-                saved |= event.what == Happening::SituationSaved && event.level == Level::Info;
+                saved |= event.what == FlightEvent::SituationSaved && event.level == Level::Info;
                 if event.level != Level::Info {
                     grave.push(event.clone());
                 }

@@ -97,7 +97,7 @@ pub fn one(log: &Path, saved: &Output, drawing: &Drawing) -> Result<(u64, Mark)>
     let judgement = facts.judge();
     view.event(start_tick, severity(&judgement), &judgement.words);
     say!("{}: {judgement}", log.display());
-    for remark in &flight.reader.remarks {
+    for remark in &flight.reader.log_lines {
         view.event(remark.time_ns / STEP_NS, level(remark.level), &remark.words);
     }
     let mark = Mark { status: Status::from(&judgement).number(), first_difference };

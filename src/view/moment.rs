@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
 use engine::STEP_NS;
-use logs::records::Happening;
+use logs::records::FlightEvent;
 use logs::text::at;
 use replay::Window;
 
@@ -180,8 +180,8 @@ impl Align {
             Self::Start => Ok(logs::open(log, replay::OPEN).with_context(name)?.initial.tick),
             Self::Marker(number) => logs::marker(log, number).with_context(name),
             Self::LiftOff => {
-                let lift_off = |(_, what): &&(u64, Option<Happening>)| {
-                    *what == Some(Happening::WeightOnWheels)
+                let lift_off = |(_, what): &&(u64, Option<FlightEvent>)| {
+                    *what == Some(FlightEvent::WeightOnWheels)
                 };
                 let told = told(log)?;
                 told.iter().find(lift_off).map(|(tick, _)| *tick).with_context(|| {
@@ -196,7 +196,7 @@ impl Align {
 }
 
 /// The ticks of everything that was told in a log, and of each lift-off what it is.
-fn told(log: &Path) -> Result<Vec<(u64, Option<Happening>)>> {
+fn told(log: &Path) -> Result<Vec<(u64, Option<FlightEvent>)>> {
     let name = || log.display().to_string();
     let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
     reader.states_as_bytes = !reader.is_compacted();
@@ -204,15 +204,15 @@ fn told(log: &Path) -> Result<Vec<(u64, Option<Happening>)>> {
     while let Ok(Some(_)) = reader.next_tick() {
         reader.timings.clear();
     }
-    let known = reader.happenings.len() == reader.remarks.len();
+    let known = reader.events.len() == reader.log_lines.len();
     let what = |place: usize| {
-        let event = reader.happenings.get(place).filter(|_| known)?;
-        let happening = Happening::from_u64(event.kind)?;
+        let event = reader.events.get(place).filter(|_| known)?;
+        let kind = FlightEvent::from_u64(event.kind)?;
         // Of weight on wheels the lift-offs only.
-        (happening != Happening::WeightOnWheels || event.value == 0).then_some(happening)
+        (kind != FlightEvent::WeightOnWheels || event.value == 0).then_some(kind)
     };
-    let told = reader.remarks.iter().enumerate();
-    Ok(told.map(|(place, remark)| (remark.time_ns / STEP_NS, what(place))).collect())
+    let told = reader.log_lines.iter().enumerate();
+    Ok(told.map(|(place, line)| (line.time_ns / STEP_NS, what(place))).collect())
 }
 
 #[cfg(test)]

@@ -279,7 +279,7 @@ pub fn flip_state_bit(forgery: &mut Forgery, tick: usize, path: &str) {
     forgery.bytes(STATE, tick)[place] ^= 1;
 }
 
-/// Forms the digests anew, up to the writer's last word.
+/// Forms the digests anew, up to the writer's footer record.
 pub fn chain_anew(log: &mut Forgery) {
     let mut chain = None;
     let files: Vec<_> = log
@@ -309,7 +309,7 @@ pub fn chain_anew(log: &mut Forgery) {
     }
     let digest = chain.expect("a state").digest().to_string();
     let closing = log.metadata.iter_mut().find(|record| record.name == "tiltrotor_closing");
-    closing.expect("a last word").metadata.insert("digest".into(), digest);
+    closing.expect("a footer record").metadata.insert("digest".into(), digest);
 }
 
 /// Random enough to choose moments and bits: splitmix64.

@@ -78,7 +78,7 @@ pub struct Induced {
 
 /// Averages over the turn, of one blade.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sums {
+pub struct BladeLoads {
     /// Along the mast, up.
     pub up_n: f64,
     /// Forward in the hub plane.
@@ -106,24 +106,24 @@ pub fn elements(
     pitch: &Pitch,
     flap: &flapping::State,
     induced: &Induced,
-) -> Sums {
-    let mut sums = Sums::default();
+) -> BladeLoads {
+    let mut loads = BladeLoads::default();
     for [c, s] in TURN {
-        azimuths(blade, flow, pitch, flap, induced, (c.into(), s.into()), &mut sums);
+        azimuths(blade, flow, pitch, flap, induced, (c.into(), s.into()), &mut loads);
     }
     let each = 1.0 / AZIMUTHS as f64;
     let half_density = 0.5 * flow.density_kg_per_m3;
     let load = half_density * each;
-    Sums {
-        up_n: load * sums.up_n,
-        forward_n: load * sums.forward_n,
-        right_n: load * sums.right_n,
-        torque_n_m: load * sums.torque_n_m,
-        flap_n_m: load * sums.flap_n_m,
-        flap_cos_n_m: 2.0 * load * sums.flap_cos_n_m,
-        flap_sin_n_m: 2.0 * load * sums.flap_sin_n_m,
-        damping_n_m_s: load * LIFT_SLOPE * sums.damping_n_m_s,
-        stalled_norm: each * sums.stalled_norm,
+    BladeLoads {
+        up_n: load * loads.up_n,
+        forward_n: load * loads.forward_n,
+        right_n: load * loads.right_n,
+        torque_n_m: load * loads.torque_n_m,
+        flap_n_m: load * loads.flap_n_m,
+        flap_cos_n_m: 2.0 * load * loads.flap_cos_n_m,
+        flap_sin_n_m: 2.0 * load * loads.flap_sin_n_m,
+        damping_n_m_s: load * LIFT_SLOPE * loads.damping_n_m_s,
+        stalled_norm: each * loads.stalled_norm,
     }
 }
 
@@ -138,7 +138,7 @@ fn azimuths(
     flap: &flapping::State,
     induced: &Induced,
     (c, s): (Lanes, Lanes),
-    sums: &mut Sums,
+    loads: &mut BladeLoads,
 ) {
     let (sin_theta, cos_theta) =
         sin_cos(pitch.collective_rad - pitch.right_rad * c - pitch.forward_rad * s);
@@ -192,16 +192,16 @@ fn azimuths(
     }
     let outward = radial * along_blade_mps - normal * sin_beta;
     let add = |sum: &mut f64, azimuths: Lanes| azimuths.to_array().iter().for_each(|x| *sum += x);
-    add(&mut sums.up_n, normal * cos_beta);
-    add(&mut sums.forward_n, -outward * c - tangential * s);
-    add(&mut sums.right_n, outward * s - tangential * c);
-    add(&mut sums.torque_n_m, torque);
-    add(&mut sums.flap_n_m, moment);
-    add(&mut sums.flap_cos_n_m, moment * c);
-    add(&mut sums.flap_sin_n_m, moment * s);
-    add(&mut sums.damping_n_m_s, damping);
+    add(&mut loads.up_n, normal * cos_beta);
+    add(&mut loads.forward_n, -outward * c - tangential * s);
+    add(&mut loads.right_n, outward * s - tangential * c);
+    add(&mut loads.torque_n_m, torque);
+    add(&mut loads.flap_n_m, moment);
+    add(&mut loads.flap_cos_n_m, moment * c);
+    add(&mut loads.flap_sin_n_m, moment * s);
+    add(&mut loads.damping_n_m_s, damping);
     // One by one: a sum of fifths is not a number of them times a fifth.
     for count in stalled.to_array() {
-        (0..count as u32).for_each(|_| sums.stalled_norm += 1.0 / 5.0);
+        (0..count as u32).for_each(|_| loads.stalled_norm += 1.0 / 5.0);
     }
 }

@@ -83,7 +83,7 @@ pub struct State {
 
 /// What the air feels of the rotor.
 #[derive(Clone, Copy, Debug)]
-pub struct Forcing {
+pub struct DiscLoads {
     /// T.
     pub thrust_n: f64,
     /// Mc: of the thrust aft of the hub.
@@ -94,7 +94,7 @@ pub struct Forcing {
 
 /// How the air passes through the disc.
 #[derive(Clone, Copy, Debug)]
-pub struct Passage {
+pub struct DiscFlow {
     /// μ as a speed.
     pub edgewise_mps: f64,
     /// V_m.
@@ -105,7 +105,7 @@ pub struct Passage {
     pub in_vortex_ring: bool,
 }
 
-impl Passage {
+impl DiscFlow {
     /// k: 1 where the air goes along the mast, 0 where it goes across.
     fn axial(&self) -> f64 {
         let along = square(self.through_mps);
@@ -145,14 +145,14 @@ fn descent(ratio: f64) -> f64 {
 }
 
 /// How the air passes through the disc.
-pub fn passage(state: &State, flow: &Flow) -> Passage {
+pub fn disc_flow(state: &State, flow: &Flow) -> DiscFlow {
     let (v, climb_mps) = (state.mean_mps, flow.along_mps);
     let edgewise_mps = sqrt(square(flow.forward_mps) + square(flow.right_mps));
     // The wake is met when the rotor moves against what it induces, slower than twice that.
     let meets = climb_mps * v < 0.0 && climb_mps.abs() < 2.0 * v.abs();
     let ratio = if meets { -climb_mps / v } else { 0.0 };
     let through_mps = if meets { v.abs() * descent(ratio) } else { (climb_mps + v).abs() };
-    Passage {
+    DiscFlow {
         edgewise_mps,
         through_mps,
         total_mps: sqrt(square(edgewise_mps) + square(through_mps)),
@@ -163,12 +163,12 @@ pub fn passage(state: &State, flow: &Flow) -> Passage {
 /// Velocities one tick later, implicitly: no speed of the flow is too fast for the step.
 pub fn advance(
     state: &State,
-    passage: &Passage,
+    through: &DiscFlow,
     flow: &Flow,
-    forcing: &Forcing,
+    loads: &DiscLoads,
     radius_m: f64,
 ) -> State {
-    let Passage { edgewise_mps, through_mps, total_mps, .. } = *passage;
+    let DiscFlow { edgewise_mps, through_mps, total_mps, .. } = *through;
     let x = edgewise_mps / (total_mps + through_mps + STILL_MPS);
     // Downwind: aft in forward flight; anywhere, without wind.
     let (c, s) = if edgewise_mps > STILL_MPS {
@@ -178,9 +178,9 @@ pub fn advance(
     };
     let into_wind = |aft: f64, right: f64| (c * aft + s * right, c * right - s * aft);
     let disc = flow.density_kg_per_m3 * PI * square(radius_m);
-    let f0 = forcing.thrust_n / disc;
+    let f0 = loads.thrust_n / disc;
     let (fc, fs) =
-        into_wind(forcing.aft_n_m / (disc * radius_m), forcing.right_n_m / (disc * radius_m));
+        into_wind(loads.aft_n_m / (disc * radius_m), loads.right_n_m / (disc * radius_m));
     let (vc, vs) = into_wind(state.aft_mps, state.right_mps);
     let v0 = state.mean_mps;
 
@@ -214,11 +214,11 @@ pub struct Ground {
 const DIAMETERS_OVER_HEIGHT_MAX: f64 = 2.0;
 
 /// What the ground does to a rotor whose hub is that high over it.
-pub fn ground(params: &Params, passage: &Passage, height_m: f64, radius_m: f64) -> Ground {
+pub fn ground(params: &Params, through: &DiscFlow, height_m: f64, radius_m: f64) -> Ground {
     let diameters = 0.5 * height_m / radius_m;
     let near = min(1.0 / max(diameters, 1e-3), DIAMETERS_OVER_HEIGHT_MAX);
     let saved = max(1.0 - 1.0 / (0.9926 + 0.0379 * square(near)), 0.0);
-    let axial = passage.axial();
+    let axial = through.axial();
     let wake = sqrt(max(params.download_near_ground.at(diameters), 0.0));
     Ground { disc: 1.0 - axial * saved, wake: 1.0 - axial * (1.0 - wake) }
 }
@@ -227,18 +227,18 @@ pub fn ground(params: &Params, passage: &Passage, height_m: f64, radius_m: f64) 
 pub fn induced(
     params: &Params,
     state: &State,
-    passage: &Passage,
+    through: &DiscFlow,
     flow: &Flow,
     blade: &Blade,
     (collective, blades): ((f64, f64), f64),
     (ground, radius_m): (f64, f64),
 ) -> Induced {
     let omega = flow.omega_radps;
-    let free_mps = sqrt(square(flow.along_mps) + square(passage.edgewise_mps));
+    let free_mps = sqrt(square(flow.along_mps) + square(through.edgewise_mps));
     let (annular, momentum) = annular(blade, flow, free_mps, collective, blades);
     let root = sqrt(square(free_mps) + 4.0 * momentum.abs());
     let mean = 2.0 * momentum / (free_mps + root + STILL_MPS);
-    let axial = passage.axial();
+    let axial = through.axial();
     let own = square(state.mean_mps);
     let still = own / (own + square(free_mps) + STILL_MPS);
     let factor = ground * params.induced_power_factor * (1.0 + params.recirculation * still);

@@ -220,26 +220,26 @@ pub fn evaluate(
         forward_rad: inputs.cyclic_forward_rad - blade.tan_delta3 * gimbal.right_rad,
         right_rad: inputs.cyclic_outboard_rad - blade.tan_delta3 * gimbal.aft_rad,
     };
-    let passage = inflow::passage(&state.inflow, &flow);
-    let ground = inflow::ground(&params.inflow, &passage, inputs.hub_height_m, params.radius_m);
+    let through = inflow::disc_flow(&state.inflow, &flow);
+    let ground = inflow::ground(&params.inflow, &through, inputs.hub_height_m, params.radius_m);
     let induced = inflow::induced(
         &params.inflow,
         &state.inflow,
-        &passage,
+        &through,
         &flow,
         blade,
         (sin_cos(inputs.collective_rad), params.blade.count),
         (ground.disc, params.radius_m),
     );
-    let sums = elements::elements(blade, &flow, &pitch, flap, &induced);
+    let blade_loads = elements::elements(blade, &flow, &pitch, flap, &induced);
 
-    let next = advance(params, state, &hub, &flow, &passage, &gimbal, &sums);
+    let next = advance(params, state, &hub, &flow, &through, &gimbal, &blade_loads);
     let swinging_n = flapping::swinging_n(&params.flapping, flap, &next.flapping, params.radius_m);
     let wake = Wake {
         induced_mps: ground.wake * (state.inflow.mean_mps + of_other * inputs.other_induced_mps),
-        in_vortex_ring: passage.in_vortex_ring,
+        in_vortex_ring: through.in_vortex_ring,
     };
-    (next, outputs(params, state, inputs, &hub, &gimbal, (&sums, swinging_n), &wake))
+    (next, outputs(params, state, inputs, &hub, &gimbal, (&blade_loads, swinging_n), &wake))
 }
 
 /// What the airframe and the crew notice of the rotor's inflow.
@@ -253,28 +253,28 @@ fn advance(
     state: &State,
     hub: &Hub,
     flow: &elements::Flow,
-    passage: &inflow::Passage,
+    through: &inflow::DiscFlow,
     gimbal: &flapping::Gimbal,
-    sums: &elements::Sums,
+    blade_loads: &elements::BladeLoads,
 ) -> State {
     let blades = params.blade.count;
-    let forcing = inflow::Forcing {
-        thrust_n: blades * sums.up_n,
-        aft_n_m: 0.5 * blades * sums.flap_cos_n_m,
-        right_n_m: 0.5 * blades * sums.flap_sin_n_m,
+    let disc_loads = inflow::DiscLoads {
+        thrust_n: blades * blade_loads.up_n,
+        aft_n_m: 0.5 * blades * blade_loads.flap_cos_n_m,
+        right_n_m: 0.5 * blades * blade_loads.flap_sin_n_m,
     };
     let flapping = flapping::Inputs {
         omega_radps: flow.omega_radps,
         hub_pitch_radps: hub.rate_radps.y,
         hub_roll_radps: hub.rate_radps.x,
-        flap_n_m: sums.flap_n_m,
-        flap_cos_n_m: sums.flap_cos_n_m,
-        flap_sin_n_m: sums.flap_sin_n_m,
-        damping_n_m_s: sums.damping_n_m_s,
+        flap_n_m: blade_loads.flap_n_m,
+        flap_cos_n_m: blade_loads.flap_cos_n_m,
+        flap_sin_n_m: blade_loads.flap_sin_n_m,
+        damping_n_m_s: blade_loads.damping_n_m_s,
         hub_inertia_kg_m2: params.hub_inertia_kg_m2(),
     };
     State {
-        inflow: inflow::advance(&state.inflow, passage, flow, &forcing, params.radius_m),
+        inflow: inflow::advance(&state.inflow, through, flow, &disc_loads, params.radius_m),
         flapping: flapping::advance(&params.flapping, &state.flapping, gimbal, &flapping),
     }
 }
@@ -286,13 +286,14 @@ fn outputs(
     inputs: &Inputs,
     hub: &Hub,
     gimbal: &flapping::Gimbal,
-    (sums, swinging_n): (&elements::Sums, f64),
+    (blade_loads, swinging_n): (&elements::BladeLoads, f64),
     wake: &Wake,
 ) -> Outputs {
     let blades = params.blade.count;
-    let (thrust_n, torque_n_m) = (blades * sums.up_n, blades * sums.torque_n_m);
+    let (thrust_n, torque_n_m) = (blades * blade_loads.up_n, blades * blade_loads.torque_n_m);
     let up_n = thrust_n - blades * swinging_n;
-    let force = Vec3::<Mast>::new(blades * sums.forward_n, blades * sums.right_n, -up_n);
+    let force =
+        Vec3::<Mast>::new(blades * blade_loads.forward_n, blades * blade_loads.right_n, -up_n);
     // The right rotor turns counter-clockwise: the air drags it, and the mast the airframe, the
     // other way round, which is positive about z, down the mast.
     let moment = Vec3::<Mast>::new(gimbal.rolling_n_m, gimbal.pitching_n_m, torque_n_m);
@@ -314,8 +315,8 @@ fn outputs(
         coning_rad: state.flapping.coning_rad,
         tilt_aft_rad: state.flapping.aft_rad,
         tilt_outboard_rad: state.flapping.right_rad,
-        stalled_norm: sums.stalled_norm,
-        stalled: u64::from(sums.stalled_norm > 0.1),
+        stalled_norm: blade_loads.stalled_norm,
+        stalled: u64::from(blade_loads.stalled_norm > 0.1),
         on_stop: u64::from(gimbal.on_stop),
         in_vortex_ring: u64::from(wake.in_vortex_ring),
     }

@@ -11,13 +11,13 @@ use engine::inputs::DeviceEvent;
 use engine::{Inputs, State, step, step_state};
 
 use super::block::{Block, Op};
-use super::flier::{Flown, FlownTick, is_kept};
+use super::regenerator::{FlightModel, FlownTick, is_kept};
 use crate::cdr;
 use crate::channels::{Channel, ChannelId, Compacted, compacted};
 use crate::records::InputsRecord;
 
 /// Threads that fly blocks.
-pub struct Crew {
+pub struct BlockWorkers {
     jobs: SyncSender<Job>,
     /// Blocks that may be under way.
     pub blocks: usize,
@@ -35,9 +35,9 @@ struct Job {
     done: Sender<Vec<FlownTick>>,
 }
 
-impl Crew {
+impl BlockWorkers {
     /// They end with the crew.
-    pub fn of(threads: usize, flown: &Flown) -> Self {
+    pub fn of(threads: usize, flown: &FlightModel) -> Self {
         let blocks = 2 * threads;
         let (jobs, waiting) = sync_channel::<Job>(blocks);
         let (waiting, flown) = (Arc::new(Mutex::new(waiting)), Arc::new(flown.clone()));
@@ -68,7 +68,7 @@ impl Crew {
 }
 
 /// Flies a block by its rows; as far as they can be read, who reads the block says what is wrong.
-fn fly(of: &Flown, mut state: State, block: &Block, restarts: &Restarts) -> Vec<FlownTick> {
+fn fly(of: &FlightModel, mut state: State, block: &Block, restarts: &Restarts) -> Vec<FlownTick> {
     let mut plain = 0;
     let channels: Vec<&Channel> = compacted(Compacted::Rows).collect();
     let mut row = vec![0; block.rows.len()];

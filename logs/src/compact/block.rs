@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::columns::{Rows, Taker, put, zigzag};
+use super::columns::{ColumnReader, Rows, put, zigzag};
 use crate::LogError;
 use crate::channels::{Compacted, compacted};
 
@@ -122,7 +122,7 @@ impl Block {
 
     /// From bytes; `with_outputs` says whether digests of the outputs are among them.
     pub fn decode(bytes: &[u8], with_outputs: bool) -> Result<Self, LogError> {
-        let mut from = Taker(bytes);
+        let mut from = ColumnReader(bytes);
         let first_tick = from.number()?;
         let ops = from
             .sized()?

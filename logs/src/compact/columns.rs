@@ -22,9 +22,9 @@ fn unzigzag(number: u64) -> u64 {
 }
 
 /// Takes from the front of a block's bytes.
-pub struct Taker<'a>(pub &'a [u8]);
+pub struct ColumnReader<'a>(pub &'a [u8]);
 
-impl<'a> Taker<'a> {
+impl<'a> ColumnReader<'a> {
     /// A number.
     pub fn number(&mut self) -> Result<u64, LogError> {
         let mut number = 0;
@@ -122,7 +122,7 @@ impl Rows {
     }
 
     /// Takes them.
-    pub fn decode(from: &mut Taker<'_>) -> Result<Self, LogError> {
+    pub fn decode(from: &mut ColumnReader<'_>) -> Result<Self, LogError> {
         let width = from.count(0)?;
         let count = from.count(width)?;
         // Every number takes a byte, at least.
@@ -165,14 +165,14 @@ mod tests {
         assert!(!rows.push(&[0; 31]), "not of eight bytes");
         let mut bytes = Vec::new();
         rows.encode(&mut bytes);
-        let mut taker = Taker(&bytes);
+        let mut taker = ColumnReader(&bytes);
         let back = Rows::decode(&mut taker).unwrap();
         assert_eq!(back, rows);
         assert_eq!(back.row(2), Some(&numbers[2][..]));
         assert_eq!(back.row(3), None);
         assert!(taker.0.is_empty());
         for cut in 0..bytes.len() {
-            assert!(Rows::decode(&mut Taker(&bytes[..cut])).is_err(), "cut at {cut}");
+            assert!(Rows::decode(&mut ColumnReader(&bytes[..cut])).is_err(), "cut at {cut}");
         }
     }
 
@@ -181,6 +181,6 @@ mod tests {
         let mut bytes = Vec::new();
         put(&mut bytes, 1 << 20);
         put(&mut bytes, 1 << 40);
-        assert!(Rows::decode(&mut Taker(&bytes)).is_err());
+        assert!(Rows::decode(&mut ColumnReader(&bytes)).is_err());
     }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use mcap::{WriteOptions, Writer};
 
 use super::files::{attach, define};
-use super::flier::AircraftOf;
+use super::regenerator::FlightModelOf;
 use super::{Copied, Expander};
 use crate::LogError;
 use crate::container::checksums::Fingerprint;
@@ -23,7 +23,7 @@ use crate::writer::CHUNK_BYTES;
 pub fn expand(
     log: &Path,
     out: &Output,
-    aircraft_of: AircraftOf,
+    aircraft_of: FlightModelOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Copied, LogError> {
     if !Expander::is_compacted(log)? {

@@ -7,7 +7,7 @@ use std::io::BufWriter;
 use mcap::records::{AttachmentHeader, Channel, Metadata};
 use mcap::{Attachment, Writer};
 
-use super::columns::{Taker, put};
+use super::columns::{ColumnReader, put};
 use super::{VERSION, VERSIONS_READ};
 use crate::LogError;
 use crate::channels::{Channel as ChannelOfOurs, Compacted};
@@ -63,7 +63,7 @@ pub fn encode(head: &[Record]) -> Vec<u8> {
 
 /// The files that were attachments, and the definitions before the first message.
 pub fn decode(bytes: &[u8]) -> Result<Vec<Record>, LogError> {
-    let mut from = Taker(bytes);
+    let mut from = ColumnReader(bytes);
     let mut head = Vec::new();
     for _ in 0..from.count(5)? {
         let (log_time, create_time) = (from.number()?, from.number()?);
@@ -97,11 +97,11 @@ fn put_sized(bytes: &mut Vec<u8>, part: &[u8]) {
     bytes.extend_from_slice(part);
 }
 
-fn text(from: &mut Taker<'_>) -> Result<String, LogError> {
+fn text(from: &mut ColumnReader<'_>) -> Result<String, LogError> {
     String::from_utf8(from.sized()?.to_vec()).map_err(|_| broken("a name is no text"))
 }
 
-fn id(from: &mut Taker<'_>) -> Result<u16, LogError> {
+fn id(from: &mut ColumnReader<'_>) -> Result<u16, LogError> {
     u16::try_from(from.number()?).map_err(|_| broken("a channel's number is too large"))
 }
 

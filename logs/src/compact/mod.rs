@@ -15,15 +15,15 @@ mod block;
 mod columns;
 mod expand;
 mod files;
-mod flier;
 mod pack;
 mod proof;
+mod regenerator;
 mod source;
 
 pub use expand::expand;
-pub(crate) use flier::Flier;
-pub use flier::{AircraftOf, Flown};
 pub use pack::compact;
+pub(crate) use regenerator::Regenerator;
+pub use regenerator::{FlightModel, FlightModelOf};
 pub(crate) use source::Expander;
 
 use crate::setup::COMPACT_HEAD as HEAD;

@@ -12,11 +12,11 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use super::block::{Block, Op};
 use super::files::{attach, define, encode, facts, refuse_other_layout, setup_of};
-use super::flier::{AircraftOf, Flier, short_digest};
 use super::proof::prove;
+use super::regenerator::{FlightModelOf, Regenerator, short_digest};
 use super::{Copied, HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted};
-use crate::container::checksums::{RollCalls, add_message};
+use crate::container::checksums::{MessageDigests, add_message};
 use crate::container::{Index, LogFile, Record, RecordSource, Schema, stamped};
 use crate::output::Output;
 use crate::records::{StateRecord, time_ns};
@@ -33,7 +33,7 @@ pub fn compact(
     log: &Path,
     output: &Output,
     keyframe_ticks: u64,
-    aircraft_of: AircraftOf,
+    aircraft_of: FlightModelOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Copied, LogError> {
     let mut from = LogFile::open(log)?.with_fingerprint();
@@ -92,8 +92,8 @@ struct Pack {
     /// Text of each message type, and of each channel's.
     types: BTreeMap<u16, Arc<[u8]>>,
     definitions: BTreeMap<u16, Arc<[u8]>>,
-    roll_calls: RollCalls,
-    flier: Flier,
+    message_digests: MessageDigests,
+    regenerator: Regenerator,
     /// A message as it was made again.
     again: Vec<u8>,
     block: Block,
@@ -109,7 +109,7 @@ impl Pack {
         head: &[Record],
         out: File,
         keyframe_ticks: u64,
-        aircraft_of: AircraftOf,
+        aircraft_of: FlightModelOf,
     ) -> Result<Self, LogError> {
         if head.iter().any(|record| record.name() == Some(HEAD)) {
             return Err(LogError::NotAFlight("a log that is compacted already".into()));
@@ -150,8 +150,8 @@ impl Pack {
             topics: BTreeMap::new(),
             types: BTreeMap::new(),
             definitions: BTreeMap::new(),
-            roll_calls: RollCalls::default(),
-            flier: Flier::new(flown),
+            message_digests: MessageDigests::default(),
+            regenerator: Regenerator::new(flown),
             again: Vec::new(),
             block: Block::after(0),
             plain: Vec::new(),
@@ -190,7 +190,7 @@ impl Pack {
     }
 
     /// Other people's tools write metadata while a chunk of messages waits: what comes after the writer's
-    /// last word may still be his. It is, when he counted it.
+    /// footer record may still be his. It is, when he counted it.
     fn refuse_others_count(&self, head: &[Record], tail: &[Metadata]) -> Result<(), LogError> {
         let metadata = head.iter().filter_map(|record| match record {
             Record::Metadata(record) => Some(record),
@@ -199,7 +199,7 @@ impl Pack {
         let closing = metadata.chain(tail).find(|record| record.name == CLOSING);
         let counted = closing.and_then(|record| record.metadata.get(CLOSING_MESSAGES));
         match counted.map(|text| text.parse().ok()) {
-            Some(counted) if !self.roll_calls.are(counted) => Err(LogError::Damaged(
+            Some(counted) if !self.message_digests.are(counted) => Err(LogError::Damaged(
                 "the messages are not those that its writer counted; `tiltrotor verify` says more"
                     .into(),
             )),
@@ -213,11 +213,11 @@ impl Pack {
             .get(&header.channel_id)
             .map_or(("", None), |(topic, channel)| (topic.as_str(), *channel));
         let text = self.definitions.get(&header.channel_id).map_or(&[][..], |text| text);
-        self.roll_calls.add(topic, channel.is_some(), text, &header, data);
+        self.message_digests.add(topic, channel.is_some(), text, &header, data);
         let op = match channel.map(|channel| (channel, channel.compacted)) {
             Some((_, Compacted::Reflown)) => return self.state(header, data),
             Some((channel, Compacted::Rows)) => {
-                self.flier.takes(channel.id, data)?;
+                self.regenerator.takes(channel.id, data)?;
                 let number = channel.number();
                 // The first number is the tick, from which the message's times follow.
                 let tick = cdr::word(data, 0);
@@ -228,7 +228,7 @@ impl Pack {
             Some((channel, Compacted::Remade)) => {
                 let tick = header.log_time / engine::STEP_NS;
                 self.again.clear();
-                let made = self.flier.view(&mut self.again, channel, tick)?;
+                let made = self.regenerator.view(&mut self.again, channel, tick)?;
                 let same = is_stamped(&header, tick) && made && self.again == data;
                 if same {
                     self.block.view_ticks[channel.number()].push(tick);
@@ -241,7 +241,7 @@ impl Pack {
                 same.then_some(Op::View(channel.number() as u8))
             }
             Some((channel, Compacted::Kept)) => {
-                self.flier.takes(channel.id, data)?;
+                self.regenerator.takes(channel.id, data)?;
                 None
             }
             None => None,
@@ -258,15 +258,15 @@ impl Pack {
         let tick = record.state.tick;
         self.states += 1;
         if self.states == 1 {
-            self.flier.begin(record.state);
+            self.regenerator.begin(record.state);
             self.block.first_tick = tick;
             self.block.ops.push(Op::Plain);
             self.plain.push((header, data.to_vec()));
             return Ok(());
         }
-        self.flier.fly();
+        self.regenerator.fly();
         self.again.clear();
-        self.flier.state_message(&mut self.again, record.digest)?;
+        self.regenerator.state_message(&mut self.again, record.digest)?;
         if !is_stamped(&header, tick) || self.again != data {
             return Err(LogError::NotReflown { tick });
         }

@@ -6,16 +6,16 @@ use std::path::Path;
 use mcap::records::{AttachmentHeader, Metadata};
 
 use super::Expander;
-use super::flier::AircraftOf;
+use super::regenerator::FlightModelOf;
 use crate::LogError;
-use crate::container::checksums::RollCall;
+use crate::container::checksums::MessageDigest;
 use crate::container::{LogFile, Record, RecordSource, Schema};
 
 /// Expands a compacted log in memory, and compares it with the log that it was.
 ///
 /// # Errors
 /// [`LogError::NotTheSame`], or when one of the two cannot be read.
-pub fn prove(log: &Path, compact: &Path, aircraft_of: AircraftOf) -> Result<(), LogError> {
+pub fn prove(log: &Path, compact: &Path, aircraft_of: FlightModelOf) -> Result<(), LogError> {
     let was = Contents::of(&mut LogFile::open(log)?)?;
     let is = Contents::of(&mut Expander::new(LogFile::open(compact)?, aircraft_of, false))?;
     match () {
@@ -31,7 +31,7 @@ pub fn prove(log: &Path, compact: &Path, aircraft_of: AircraftOf) -> Result<(), 
 /// All that a log says, wherever it stands in the file.
 #[derive(Default)]
 struct Contents {
-    messages: RollCall,
+    messages: MessageDigest,
     files: Vec<(AttachmentHeader, Vec<u8>)>,
     facts: Vec<Metadata>,
 }

@@ -10,10 +10,10 @@ use engine::State;
 use mcap::records::{Channel as Definition, MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
 
-use super::ahead::{Crew, Restarts};
+use super::ahead::{BlockWorkers, Restarts};
 use super::block::{Block, Op};
 use super::files::{broken, decode, form_of, refuse_other_form, refuse_other_layout, setup_of};
-use super::flier::{AircraftOf, Flier, FlownTick, short_digest};
+use super::regenerator::{FlightModelOf, FlownTick, Regenerator, short_digest};
 use super::{HEAD, ID, TAIL, TOPIC, VERSION};
 use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
 use crate::container::checksums::add_message;
@@ -31,7 +31,7 @@ pub(crate) struct Expander {
     file: LogFile,
     /// The record of the file that was read last.
     record: Record,
-    aircraft_of: Option<AircraftOf>,
+    aircraft_of: Option<FlightModelOf>,
     /// Whether a log of another version of the flight model is to be read. Its states cannot be flown
     /// again: between keyframes, the last keyframe stands in for them, with the right tick and digest.
     across: bool,
@@ -39,7 +39,7 @@ pub(crate) struct Expander {
     blind: bool,
     /// Who flew.
     identity: Identity,
-    flier: Option<Flier>,
+    regenerator: Option<Regenerator>,
     /// The last recorded state's message, and the tick of the last state.
     keyframe: Vec<u8>,
     tick: u64,
@@ -56,7 +56,7 @@ pub(crate) struct Expander {
     block: Option<Unpacked>,
     /// What was read of the file before its turn: blocks are flown meanwhile.
     ahead: VecDeque<Ahead>,
-    crew: Option<Crew>,
+    crew: Option<BlockWorkers>,
     /// The state with which the next block begins, as far as it is known before its turn.
     next_from: Option<State>,
     /// Reading began in the middle: the next block is only read for its keyframe.
@@ -129,7 +129,7 @@ impl Expander {
     }
 
     /// Reads a compacted log from its beginning.
-    pub fn new(file: LogFile, aircraft_of: AircraftOf, across: bool) -> Self {
+    pub fn new(file: LogFile, aircraft_of: FlightModelOf, across: bool) -> Self {
         Self { file, aircraft_of: Some(aircraft_of), across, ..Self::default() }
     }
 
@@ -298,13 +298,15 @@ impl Expander {
 
     /// The next tick of the block under way, flown.
     fn fly(&mut self) -> Result<(), LogError> {
-        let (Some(flier), Some(at)) = (&mut self.flier, &mut self.block) else { return Ok(()) };
+        let (Some(regenerator), Some(at)) = (&mut self.regenerator, &mut self.block) else {
+            return Ok(());
+        };
         if let Some(flown) = at.flown.take() {
             at.ticks = flown.recv().unwrap_or_default().into();
         }
         match at.ticks.pop_front() {
-            Some(tick) => flier.take(&tick),
-            None => flier.fly(),
+            Some(tick) => regenerator.take(&tick),
+            None => regenerator.fly(),
         }
         Ok(())
     }
@@ -320,7 +322,7 @@ impl Expander {
         }
         if let Some(aircraft_of) = self.aircraft_of.filter(|_| !self.blind) {
             match aircraft_of(&setup) {
-                Ok(flown) => self.flier = Some(Flier::new(flown)),
+                Ok(flown) => self.regenerator = Some(Regenerator::new(flown)),
                 // An aircraft file of another time: its keyframes can still be read.
                 Err(_) if self.across => self.blind = true,
                 Err(error) => return Err(error),
@@ -345,8 +347,8 @@ impl Expander {
     /// Goes on from a recorded state.
     fn stand_at(&mut self, data: &[u8]) -> Result<(), LogError> {
         self.tick = tick_of(data)?;
-        if let Some(flier) = &mut self.flier {
-            flier.begin(cdr::decode::<StateRecord>(data)?.state);
+        if let Some(regenerator) = &mut self.regenerator {
+            regenerator.begin(cdr::decode::<StateRecord>(data)?.state);
         }
         self.keyframe.clear();
         self.keyframe.extend_from_slice(data);
@@ -388,9 +390,9 @@ impl Expander {
             self.states += 1;
             self.reflown = false;
         } else if Some(&header.channel_id) == self.ids.get(RESTART)
-            && let Some(flier) = &mut self.flier
+            && let Some(regenerator) = &mut self.regenerator
         {
-            flier.takes(ChannelId::Restart, &data)?;
+            regenerator.takes(ChannelId::Restart, &data)?;
         }
         *record = Record::Message(header, data);
         Ok(())
@@ -405,7 +407,7 @@ impl Expander {
         let data = record.message(stamped(id, row[0]));
         data.extend_from_slice(&cdr::HEADER);
         data.extend(row.iter().flat_map(|word| word.to_le_bytes()));
-        self.flier.as_mut().map_or(Ok(()), |flier| flier.takes(channel.id, data))
+        self.regenerator.as_mut().map_or(Ok(()), |regenerator| regenerator.takes(channel.id, data))
     }
 
     fn state(&mut self, record: &mut Record) -> Result<(), LogError> {
@@ -418,9 +420,9 @@ impl Expander {
         self.tick = self.tick.wrapping_add(1);
         self.reflown = true;
         self.fly()?;
-        if let Some(flier) = &mut self.flier {
-            self.tick = flier.state.tick;
-            return flier.state_message(record.message(stamped(id, self.tick)), digest);
+        if let Some(regenerator) = &mut self.regenerator {
+            self.tick = regenerator.state.tick;
+            return regenerator.state_message(record.message(stamped(id, self.tick)), digest);
         }
         let data = record.message(stamped(id, self.tick));
         data.extend_from_slice(&self.keyframe);
@@ -436,9 +438,9 @@ impl Expander {
         let keyframe = self.block.as_mut().and_then(|at| at.keyframe.take());
         let (header, data) = keyframe.ok_or_else(|| broken("a keyframe less"))?;
         self.fly()?;
-        if let Some(flier) = &mut self.flier {
+        if let Some(regenerator) = &mut self.regenerator {
             // The same, or the log does not refly: then what was recorded counts.
-            flier.state = cdr::decode::<StateRecord>(&data)?.state;
+            regenerator.state = cdr::decode::<StateRecord>(&data)?.state;
         }
         self.states += 1;
         self.tick = tick_of(&data)?;
@@ -463,15 +465,15 @@ impl Expander {
             None => None,
         };
         at.view[number] += 1;
-        let Some(flier) = &self.flier else { return Ok(false) };
+        let Some(regenerator) = &self.regenerator else { return Ok(false) };
         let message = record.message(stamped(id, tick));
-        if flier.view(message, channel, tick)? {
+        if regenerator.view(message, channel, tick)? {
             if digest.is_some_and(|digest| digest != short_digest(message)) {
                 self.outputs_differ.get_or_insert(tick);
             }
             return Ok(true);
         }
-        if self.sought && tick <= flier.begun_tick {
+        if self.sought && tick <= regenerator.begun_tick {
             return Ok(false);
         }
         Err(broken("viewers' messages of a tick that is long past"))
@@ -521,10 +523,10 @@ impl RecordSource for Expander {
     }
 
     fn fly_states_only(&mut self, threads: usize) {
-        let Some(flier) = &mut self.flier else { return };
-        flier.states_only = true;
+        let Some(regenerator) = &mut self.regenerator else { return };
+        regenerator.states_only = true;
         if threads > 0 {
-            self.crew = Some(Crew::of(threads, &flier.of));
+            self.crew = Some(BlockWorkers::of(threads, &regenerator.of));
             let keyframe = self.block.as_ref().and_then(|block| block.keyframe.as_ref());
             let record = keyframe.and_then(|(_, data)| cdr::decode::<StateRecord>(data).ok());
             self.next_from = record.map(|record| record.state);
@@ -545,7 +547,7 @@ impl RecordSource for Expander {
     }
 
     fn compacted(&self) -> Option<Compacted<'_>> {
-        let flown = self.flier.as_ref().and_then(|flier| flier.flown.as_ref());
+        let flown = self.regenerator.as_ref().and_then(|regenerator| regenerator.flown.as_ref());
         let flown = flown.map(|(state, outputs)| (state, outputs));
         let outputs_differ = self.outputs_differ;
         Some(Compacted { recorded: !self.reflown, flown, outputs_differ })

@@ -18,22 +18,22 @@ use crate::LogError;
 const SEAL: &str = "seal";
 
 /// Adds the seal over all other facts.
-pub fn seal(facts: &mut BTreeMap<String, String>) {
-    let seal = seal_of(facts);
+pub fn add_checksum(facts: &mut BTreeMap<String, String>) {
+    let seal = metadata_checksum(facts);
     facts.insert(SEAL.into(), seal);
 }
 
 /// Whether they claim to be sealed.
-pub fn has_seal(facts: &BTreeMap<String, String>) -> bool {
+pub fn has_checksum(facts: &BTreeMap<String, String>) -> bool {
     facts.contains_key(SEAL)
 }
 
 /// Whether the facts are those that were sealed.
 pub fn is_whole(facts: &BTreeMap<String, String>) -> bool {
-    facts.get(SEAL).is_some_and(|seal| *seal == seal_of(facts))
+    facts.get(SEAL).is_some_and(|seal| *seal == metadata_checksum(facts))
 }
 
-fn seal_of(facts: &BTreeMap<String, String>) -> String {
+fn metadata_checksum(facts: &BTreeMap<String, String>) -> String {
     let mut hash = Xxh3Default::new();
     for (key, value) in facts.iter().filter(|(key, _)| *key != SEAL) {
         for part in [key, value] {
@@ -46,7 +46,7 @@ fn seal_of(facts: &BTreeMap<String, String>) -> String {
 
 /// Every message of a log, in order, as one number.
 #[derive(Clone, Default)]
-pub struct RollCall {
+pub struct MessageDigest {
     hash: Xxh3Default,
     /// Topics of the channels so far, and their numbers.
     met: Vec<String>,
@@ -54,7 +54,7 @@ pub struct RollCall {
     head: Vec<u8>,
 }
 
-impl RollCall {
+impl MessageDigest {
     /// Adds the next message, and the definition of its channel with the first one.
     pub fn add(&mut self, topic: &str, definition: &[u8], header: &MessageHeader, data: &[u8]) {
         let Self { hash, met, ids, head } = self;
@@ -77,16 +77,16 @@ impl RollCall {
     }
 }
 
-/// The roll call of a log being read: a message on a channel of somebody else's is none of the
+/// The message digest of a log being read: a message on a channel of somebody else's is none of the
 /// flight's, and takes nothing from it.
 #[derive(Default)]
-pub struct RollCalls {
-    all: RollCall,
+pub struct MessageDigests {
+    all: MessageDigest,
     /// Without the channels of others, once there is a message of theirs.
-    ours: Option<RollCall>,
+    ours: Option<MessageDigest>,
 }
 
-impl RollCalls {
+impl MessageDigests {
     /// Adds the next message.
     pub fn add(
         &mut self,
@@ -106,7 +106,7 @@ impl RollCalls {
 
     /// Whether this is what the writer counted: every message, or every one of ours.
     pub fn are(&self, counted: Option<u64>) -> bool {
-        let ours = self.ours.as_ref().map(RollCall::digest);
+        let ours = self.ours.as_ref().map(MessageDigest::digest);
         counted.is_some() && (counted == Some(self.all.digest()) || counted == ours)
     }
 }
@@ -177,7 +177,7 @@ mod tests {
         let mut facts: BTreeMap<_, _> =
             [("commit", "a1"), ("dirty", "no")].map(|(k, v)| (k.into(), v.into())).into();
         assert!(!is_whole(&facts), "never sealed");
-        seal(&mut facts);
+        add_checksum(&mut facts);
         assert!(is_whole(&facts));
         let mut changed = facts.clone();
         changed.insert("commit".into(), "a2".into());
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn the_order_of_messages_counts() {
         let (a, b) = (header(1), header(2));
-        let (mut one, mut other) = (RollCall::default(), RollCall::default());
+        let (mut one, mut other) = (MessageDigest::default(), MessageDigest::default());
         one.add("/a", b"", &a, b"b");
         one.add("/b", b"", &b, b"a");
         other.add("/b", b"", &b, b"a");
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn another_definition_is_another_roll_call() {
-        let (mut one, mut other) = (RollCall::default(), RollCall::default());
+        let (mut one, mut other) = (MessageDigest::default(), MessageDigest::default());
         one.add("/a", b"float64 x", &header(1), b"b");
         other.add("/a", b"float64 y", &header(1), b"b");
         assert_ne!(one.digest(), other.digest());
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_message_of_somebody_else_s_takes_nothing_from_the_flight() {
-        let (mut written, mut read) = (RollCall::default(), RollCalls::default());
+        let (mut written, mut read) = (MessageDigest::default(), MessageDigests::default());
         for topic in ["/a", "/b"] {
             written.add(topic, b"float64 x", &header(1), b"a");
             read.add(topic, true, b"float64 x", &header(1), b"a");

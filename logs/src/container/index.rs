@@ -32,7 +32,7 @@ pub(crate) struct Index {
     pub files: Vec<u64>,
     /// Whether it lists all metadata and attachments that there are.
     pub lists_files: bool,
-    /// Where the writer's last word is.
+    /// Where the writer's footer record is.
     pub closing: Option<u64>,
 }
 

@@ -19,7 +19,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use crate::channels::ChannelId;
-use crate::compact::AircraftOf;
+use crate::compact::FlightModelOf;
 use crate::fields::Value;
 use crate::layout::{Kind, Layout};
 use crate::output::{self, hidden};
@@ -131,7 +131,7 @@ pub fn export(
     form: Form,
     force: bool,
     judged: Judged,
-    aircraft_of: AircraftOf,
+    aircraft_of: FlightModelOf,
     mut progress: impl FnMut(u64),
 ) -> Result<Exported, LogError> {
     let options = OpenOptions { aircraft_of: Some(aircraft_of), across_versions: false };
@@ -220,8 +220,8 @@ impl Tables {
             Cell::Number(Value::F64(message.time_ns as f64 * 1e-9)),
         ];
         if message.channel().is_some_and(|channel| channel.id == ChannelId::Log) {
-            let remark = view::remark(&message.data)?;
-            let level = Cell::Number(Value::U64(remark.level as u64));
+            let line = view::log_line(&message.data)?;
+            let level = Cell::Number(Value::U64(line.level as u64));
             let columns = [Column::number("level", Kind::U64), Column::text("words")];
             let open = match self.open.get_mut("log") {
                 Some(open) => open,
@@ -229,7 +229,7 @@ impl Tables {
             };
             open.rows += 1;
             let [ns, s] = time;
-            return open.table.push(&[ns, s, level, Cell::Text(remark.words.into())]);
+            return open.table.push(&[ns, s, level, Cell::Text(line.words.into())]);
         }
         let Some(layout) = message.layout() else { return Ok(()) };
         let name = message.topic().trim_start_matches('/').replace('/', "_");

@@ -34,18 +34,18 @@ pub enum Remade {
 
 /// With what the writer closed the log.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LastWord {
+pub(super) struct FooterRecord {
     /// Tick and digest of the last state.
     pub last: (u64, u64),
-    /// Roll call of all messages; `None` without a seal.
+    /// Message digest of all messages; `None` without a seal.
     pub messages: Option<u64>,
 }
 
 /// The log format that knew no seals.
 pub(super) const UNSEALED: &str = "1";
 
-pub(super) fn last_word(facts: &BTreeMap<String, String>) -> Option<LastWord> {
+pub(super) fn footer_record(facts: &BTreeMap<String, String>) -> Option<FooterRecord> {
     let number = |key| facts.get(key).and_then(|text| text.parse().ok());
     let last = number(CLOSING_TICK).zip(number(CLOSING_DIGEST))?;
-    Some(LastWord { last, messages: number(CLOSING_MESSAGES).filter(|_| is_whole(facts)) })
+    Some(FooterRecord { last, messages: number(CLOSING_MESSAGES).filter(|_| is_whole(facts)) })
 }

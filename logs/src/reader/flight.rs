@@ -7,10 +7,10 @@ use std::path::Path;
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
 
-use super::ending::{Ending, LastWord, Remade, UNSEALED, last_word};
+use super::ending::{Ending, FooterRecord, Remade, UNSEALED, footer_record};
 use super::stream::Stream;
 use crate::channels::{Chain as InChain, Channel, ChannelId};
-use crate::container::checksums::{has_seal, is_whole};
+use crate::container::checksums::{has_checksum, is_whole};
 use crate::container::{LogFile, Record, RecordSource};
 use crate::devices::DeviceIdentity;
 use crate::evolution::{Difference, Mappings};
@@ -20,7 +20,7 @@ use crate::records::{
     first_digest,
 };
 use crate::setup::{CLOSING, Identity, METADATA, Setup};
-use crate::view::{self, Remark};
+use crate::view::{self, LogLine};
 use crate::{LogError, cdr};
 
 /// One tick as recorded.
@@ -81,12 +81,12 @@ pub struct FlightReader {
     last: (u64, u64),
     /// Whether every digest so far follows from the one before.
     unbroken: bool,
-    /// The writer's last word.
-    closing: Option<LastWord>,
+    /// The footer record, with which the writer closed the log.
+    closing: Option<FooterRecord>,
     /// Events in the order they were recorded.
-    pub happenings: Vec<EventRecord>,
+    pub events: Vec<EventRecord>,
     /// The same in words.
-    pub remarks: Vec<Remark>,
+    pub log_lines: Vec<LogLine>,
     /// Input devices that were found, in the order they were recorded.
     pub devices: Vec<DeviceIdentity>,
     /// How the ticks kept time; cleared by whoever takes them.
@@ -158,13 +158,14 @@ impl FlightReader {
             METADATA if first => {
                 // A flipped bit may make an unsealed format of a sealed one.
                 let sealed = facts.get(Identity::FORMAT).is_none_or(|format| format != UNSEALED);
-                if (sealed || has_seal(&facts)) && !is_whole(&facts) {
-                    self.stream.oddity("the metadata that says who flew is not as written");
+                if (sealed || has_checksum(&facts)) && !is_whole(&facts) {
+                    self.stream
+                        .integrity_fault("the metadata that says who flew is not as written");
                 }
                 self.identity = Identity(facts);
             }
             // A tool that copied the log may have put it first.
-            CLOSING => self.closing = last_word(&facts),
+            CLOSING => self.closing = footer_record(&facts),
             _ => self.other_facts.push((name, facts)),
         }
         true
@@ -271,8 +272,8 @@ impl FlightReader {
                 return self.close_tick().map(|()| true);
             }
             ChannelId::Timing => self.timings.push(mappings.decode(ours, layout, data)?),
-            ChannelId::Events => self.happenings.push(mappings.decode(ours, layout, data)?),
-            ChannelId::Log => self.remarks.push(view::remark(data)?),
+            ChannelId::Events => self.events.push(mappings.decode(ours, layout, data)?),
+            ChannelId::Log => self.log_lines.push(view::log_line(data)?),
             ChannelId::Devices => self.devices.push(DeviceIdentity::decode(data)?),
             // No flight depends on it: one of another form is none.
             ChannelId::Outputs if self.keep_outputs => {
@@ -295,10 +296,10 @@ impl FlightReader {
         if matches!(ending, Ending::Damaged(_)) {
             return Ok(ending);
         }
-        if let Some(oddity) = &self.stream.oddity {
-            return Ok(Ending::Damaged(oddity.clone()));
+        if let Some(integrity_fault) = &self.stream.integrity_fault {
+            return Ok(Ending::Damaged(integrity_fault.clone()));
         }
-        // An end without the writer's last word was put there by someone else.
+        // An end without the writer's footer record was put there by someone else.
         let Some(closing) = self.closing.filter(|_| ending == Ending::Closed) else {
             return Ok(Ending::Truncated);
         };
@@ -309,7 +310,7 @@ impl FlightReader {
         // When the chain says that the flight is what was flown, it is something beside it. What a
         // compacted log says is guarded by a hash of its own, and what it does not say is made again.
         let all_read = self.unbroken && !self.stream.sought && !self.is_compacted();
-        if sealed && all_read && !self.stream.roll_calls.are(closing.messages) {
+        if sealed && all_read && !self.stream.message_digests.are(closing.messages) {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, what any is \
                  called, its order or time) is not as written, though every checksum is right: a tool that \
@@ -330,9 +331,14 @@ impl FlightReader {
         }
         let made = self.same_model && compacted.flown.is_some();
         let all_read = self.unbroken && !self.stream.sought;
-        let ended = self.stream.ending == Ending::Closed && self.stream.oddity.is_none();
+        let ended = self.stream.ending == Ending::Closed && self.stream.integrity_fault.is_none();
         let counted = self.closing.and_then(|closing| closing.messages);
-        if made && all_read && ended && counted.is_some() && !self.stream.roll_calls.are(counted) {
+        if made
+            && all_read
+            && ended
+            && counted.is_some()
+            && !self.stream.message_digests.are(counted)
+        {
             return Remade::Differs;
         }
         Remade::AsRecorded
@@ -474,8 +480,8 @@ impl FlightReader {
     }
 
     /// What no checksum found and is not as written, so far.
-    pub fn oddity(&self) -> Option<&str> {
-        self.stream.oddity.as_deref()
+    pub fn integrity_fault(&self) -> Option<&str> {
+        self.stream.integrity_fault.as_deref()
     }
 
     /// The file that this log was recovered from, if it was.
@@ -486,8 +492,8 @@ impl FlightReader {
     /// Lets go of what was read beside the ticks: for whoever reads on and on and does not ask for it.
     pub fn forget(&mut self) {
         self.timings.clear();
-        self.happenings.clear();
-        self.remarks.clear();
+        self.events.clear();
+        self.log_lines.clear();
     }
 
     /// How the file ends, once the last tick has been read.

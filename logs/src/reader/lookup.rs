@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::ending::last_word;
+use super::ending::footer_record;
 use crate::container::{Index, LogFile, Record, RecordSource};
-use crate::records::{EVENTS, EventRecord, Happening};
+use crate::records::{EVENTS, EventRecord, FlightEvent};
 use crate::setup::CLOSING;
 use crate::{LogError, cdr};
 
@@ -17,7 +17,7 @@ pub fn closing(path: &Path) -> Option<(u64, u64)> {
     let mut record = Record::default();
     match (file.next(&mut record).ok()?, record) {
         (true, Record::Metadata(record)) if record.name == CLOSING => {
-            last_word(&record.metadata).map(|word| word.last)
+            footer_record(&record.metadata).map(|word| word.last)
         }
         _ => None,
     }
@@ -42,7 +42,7 @@ pub fn marker(path: &Path, number: u64) -> Result<u64, LogError> {
             Record::Channel(channel) if channel.topic == EVENTS => events = Some(channel.id),
             Record::Message(header, data) if Some(header.channel_id) == events => {
                 let event: EventRecord = cdr::decode(data)?;
-                if event.kind == Happening::Marker as u64 {
+                if event.kind == FlightEvent::Marker as u64 {
                     if event.value == number {
                         return Ok(event.tick);
                     }

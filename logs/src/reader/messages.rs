@@ -139,7 +139,7 @@ impl Messages {
             return Ending::Closed;
         }
         match &self.stream.ending {
-            // An end without the writer's last word was put there by someone else.
+            // An end without the writer's footer record was put there by someone else.
             Ending::Closed if self.facts.iter().all(|(name, _)| name != CLOSING) => {
                 Ending::Truncated
             }

@@ -7,7 +7,7 @@ use mcap::records::Channel as Definition;
 
 use super::ending::Ending;
 use crate::channels::{Channel, ChannelId};
-use crate::container::checksums::RollCalls;
+use crate::container::checksums::MessageDigests;
 use crate::container::{Record, RecordSource, Schema};
 use crate::layout::Layout;
 use crate::{LogError, cdr, schema};
@@ -50,9 +50,9 @@ pub(super) struct Stream {
     pub channel: Arc<FileChannel>,
     types: BTreeMap<u16, Arc<Schema>>,
     channels: BTreeMap<u16, Arc<FileChannel>>,
-    pub roll_calls: RollCalls,
+    pub message_digests: MessageDigests,
     /// The first thing that no checksum found and that is not as written.
-    pub oddity: Option<String>,
+    pub integrity_fault: Option<String>,
     pub ending: Ending,
     /// Reading went on somewhere else in the file.
     pub sought: bool,
@@ -65,8 +65,8 @@ impl Stream {
         Self { source, ..Self::default() }
     }
 
-    pub fn oddity(&mut self, what: &str) {
-        self.oddity.get_or_insert_with(|| what.to_string());
+    pub fn integrity_fault(&mut self, what: &str) {
+        self.integrity_fault.get_or_insert_with(|| what.to_string());
     }
 
     /// Whether a channel was defined so far.
@@ -102,7 +102,7 @@ impl Stream {
                         self.channel = channel.clone();
                     }
                     let (ours, text) = (channel.id.is_some(), &channel.definition.text);
-                    self.roll_calls.add(&channel.topic, ours, text, header, data);
+                    self.message_digests.add(&channel.topic, ours, text, header, data);
                     return true;
                 }
                 Record::Metadata(_) | Record::Attachment(..) => return true,
@@ -158,7 +158,10 @@ impl Stream {
             // Its fields may be others than today's; what they are called has to be said.
             let said = layout.is_some() || kind.layout.is_none();
             if !said || definition.name != kind.name || channel.message_encoding != cdr::ENCODING {
-                self.oddity(&format!("the definition of {} is not as written", channel.topic));
+                self.integrity_fault(&format!(
+                    "the definition of {} is not as written",
+                    channel.topic
+                ));
             }
         }
         let (topic, id) = (channel.topic, ours.map(|ours| ours.id));

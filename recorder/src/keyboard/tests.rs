@@ -28,7 +28,7 @@ impl Cockpit {
             let mut events = Vec::new();
             self.keyboard.act(
                 &self.seen,
-                &mut Reach {
+                &mut TickContext {
                     tick: self.seen.tick,
                     events: &mut events,
                     world: &mut self.world,

@@ -2,13 +2,13 @@ use engine::cockpit;
 use logs::Setup;
 
 use super::*;
-use crate::hands::Hands;
+use crate::controller::Controller;
 use crate::keyboard::{KeyAction, Keyboard, Order};
 use crate::pilots::Pilot;
 use crate::script::Script;
 
 /// A flight into a temporary log.
-fn flight(name: &str, map: cockpit::Params, hands: Vec<Box<dyn Hands>>) -> Flight {
+fn flight(name: &str, map: cockpit::Params, controllers: Vec<Box<dyn Controller>>) -> Flight {
     let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
     let setup = Setup {
         aircraft_toml: aircraft::XV15.into(),
@@ -21,7 +21,7 @@ fn flight(name: &str, map: cockpit::Params, hands: Vec<Box<dyn Hands>>) -> Fligh
         setup,
         identity: Identity::new(),
         robot_description: String::new(),
-        hands,
+        controllers,
         #[cfg(feature = "sticks")]
         sticks: None,
         out: std::env::temp_dir().join(format!("tiltrotor-{name}-{}", std::process::id())),
@@ -35,9 +35,14 @@ fn flight(name: &str, map: cockpit::Params, hands: Vec<Box<dyn Hands>>) -> Fligh
 }
 
 /// Allocations and frees on the loop's thread from the second tick on.
-fn counted(name: &str, map: cockpit::Params, hands: Vec<Box<dyn Hands>>, ticks: u64) -> u64 {
+fn counted(
+    name: &str,
+    map: cockpit::Params,
+    controllers: Vec<Box<dyn Controller>>,
+    ticks: u64,
+) -> u64 {
     let progress = Progress::default();
-    let flight = flight(name, map, hands);
+    let flight = flight(name, map, controllers);
     let out = flight.out.clone();
     let mut live = Live::begin(flight, &progress, step).unwrap();
     live.tick();

@@ -16,7 +16,7 @@ use engine::Outputs;
 use engine::math::{clamp, max, min, sqrt};
 use engine::units::{DEGREE_RAD as DEG, KNOT_MPS};
 
-use super::skill::{Eyes, HAND_S};
+use super::skill::{HAND_S, Observation};
 
 /// V_g: speed of the flight that was autorotated, 80 kt (TM-81244).
 const GLIDE_MPS: f64 = 80.0 * KNOT_MPS;
@@ -66,7 +66,7 @@ pub struct Autorotation {
 impl Autorotation {
     /// Pitch and lever for this moment.
     pub fn hands(&mut self, seen: &Outputs) -> (f64, f64) {
-        let eyes = Eyes::look(seen);
+        let eyes = Observation::look(seen);
         if !self.begun {
             *self = Self {
                 pitch_rad: seen.euler.pitch_rad,
@@ -93,7 +93,7 @@ impl Autorotation {
         within(self.pitch_rad + at_once * fast_mps)
     }
 
-    fn flare(&mut self, eyes: &Eyes, height_m: f64) -> f64 {
+    fn flare(&mut self, eyes: &Observation, height_m: f64) -> f64 {
         let ahead_m = height_m - CUSHION_M + LEAD_S * eyes.climb_mps;
         let wanted_mps = -sqrt(2.0 * FLARE_MPS2 * max(0.0, ahead_m)) - 1.0;
         let too_low_mps = wanted_mps - eyes.climb_mps;
@@ -103,7 +103,7 @@ impl Autorotation {
         within(self.pitch_rad + at_once * too_low_mps)
     }
 
-    fn cushion(&mut self, seen: &Outputs, eyes: &Eyes) -> (f64, f64) {
+    fn cushion(&mut self, seen: &Outputs, eyes: &Observation) -> (f64, f64) {
         let height_m = seen.height_above_ground_m;
         let step_rad = LEVEL_RADPS * HAND_S;
         // From where the nose is: the flare may have asked for more than it gave.

@@ -4,7 +4,7 @@ use engine::cockpit::{self, AxisControl, ButtonControl, Travel};
 use engine::inputs::EventKind;
 use engine::math::clamp;
 
-use crate::hands::Reach;
+use crate::controller::TickContext;
 
 /// Name of the device in the cockpit map that pilot models and scripts use.
 pub const DEVICE: &str = "pilot";
@@ -55,7 +55,7 @@ impl VirtualDevice {
     }
 
     /// Moves an axis to a position (−1..1, or 0..1 for lever and brakes), if it is not there yet.
-    pub fn set(&mut self, reach: &mut Reach<'_>, control: AxisControl, position_norm: f64) {
+    pub fn set(&mut self, context: &mut TickContext<'_>, control: AxisControl, position_norm: f64) {
         let Some(axis) = self.device.axis.iter().find(|axis| axis.control == control) else {
             return;
         };
@@ -72,20 +72,20 @@ impl VirtualDevice {
             Some((_, sent)) => *sent = raw,
             None => self.sent.push((code, raw)),
         }
-        reach.send(self.number, EventKind::Axis, code, raw);
+        context.send(self.number, EventKind::Axis, code, raw);
     }
 
     /// Presses or releases a button.
-    pub fn press(&self, reach: &mut Reach<'_>, control: ButtonControl, pressed: bool) {
+    pub fn press(&self, context: &mut TickContext<'_>, control: ButtonControl, pressed: bool) {
         if let Some(button) = self.device.button.iter().find(|button| button.control == control) {
             let pressed = i64::from(pressed);
-            reach.send(self.number, EventKind::Button, button.code.number(), pressed);
+            context.send(self.number, EventKind::Button, button.code.number(), pressed);
         }
     }
 
     /// Presses a button and lets it go.
-    pub fn tap(&self, reach: &mut Reach<'_>, control: ButtonControl) {
-        self.press(reach, control, true);
-        self.press(reach, control, false);
+    pub fn tap(&self, context: &mut TickContext<'_>, control: ButtonControl) {
+        self.press(context, control, true);
+        self.press(context, control, false);
     }
 }

@@ -20,10 +20,10 @@ use engine::{Outputs, STEP_S};
 use autorotation::{Autorotation, engines_are_out};
 pub use device::{DEVICE, VirtualDevice};
 use phase::{Nacelles, Order, Phase};
-use skill::{Eyes, HAND_TICKS, Positions, Skill};
+use skill::{HAND_TICKS, Observation, Positions, Skill};
 use sweep::{Axis, Steady};
 
-use crate::hands::{GaveUp, Hands, Reach};
+use crate::controller::{Controller, GaveUp, TickContext};
 
 /// Names of the pilot models, each with what it flies.
 pub const PILOTS: [(&str, &str); 12] = [
@@ -210,7 +210,7 @@ impl Pilot {
     /// Who stands on the ground after a flight, wanted or not, has landed: a stopped engine may not let
     /// an aircraft hover. Its task is given up with it.
     fn give_up_flying(&mut self, seen: &Outputs, tick: u64) {
-        let eyes = Eyes::look(seen);
+        let eyes = Observation::look(seen);
         self.flown |= seen.height_above_ground_m > FLOWN_M;
         let landing = |phase: &(&str, Phase)| phase.1.ends_on_wheels();
         let down = eyes.on_wheels_norm > 0.7 || seen.validity.contains(Validity::HULL);
@@ -264,58 +264,58 @@ impl Pilot {
 
     fn begin(&mut self, seen: &Outputs) {
         self.started = true;
-        let on_wheels = Eyes::look(seen).on_wheels_norm > 0.5;
+        let on_wheels = Observation::look(seen).on_wheels_norm > 0.5;
         self.phases = plan(self.name, on_wheels).unwrap_or_default();
         self.skill = Skill::taking_over(seen);
         self.order = Order::beginning(seen);
     }
 }
 
-impl Hands for Pilot {
-    fn act(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
-        if !reach.tick.is_multiple_of(HAND_TICKS) {
+impl Controller for Pilot {
+    fn act(&mut self, seen: &Outputs, context: &mut TickContext<'_>) {
+        if !context.tick.is_multiple_of(HAND_TICKS) {
             return;
         }
         if !self.started {
             self.begin(seen);
         }
-        self.give_up_flying(seen, reach.tick);
-        self.autorotate(seen, reach.tick);
+        self.give_up_flying(seen, context.tick);
+        self.autorotate(seen, context.tick);
         if seen.validity.intersects(Validity::HULL | Validity::FROZEN) {
             self.give_up("the aircraft is a wreck");
         }
         let Some(&(name, phase)) = self.phases.get(self.at) else {
-            *reach.gave_up = self.failed;
-            *reach.done = true;
+            *context.gave_up = self.failed;
+            *context.done = true;
             return;
         };
-        *reach.phase = (self.at as u64 + 1, name);
-        let since_s = (reach.tick - self.since_tick) as f64 * STEP_S;
-        let over = self.give_orders(phase, seen, since_s, reach);
+        *context.phase = (self.at as u64 + 1, name);
+        let since_s = (context.tick - self.since_tick) as f64 * STEP_S;
+        let over = self.give_orders(phase, seen, since_s, context);
         let to = match phase {
             Phase::Steady { .. } | Phase::Sweep { .. } => self.sweep(phase, seen, since_s),
-            _ => self.positions(phase, seen, reach.tick),
+            _ => self.positions(phase, seen, context.tick),
         };
-        self.device.set(reach, AxisControl::StickAft, to.stick_aft_norm);
-        self.device.set(reach, AxisControl::StickRight, to.stick_right_norm);
-        self.device.set(reach, AxisControl::PedalRight, to.pedal_right_norm);
-        self.device.set(reach, AxisControl::Collective, to.lever_norm);
+        self.device.set(context, AxisControl::StickAft, to.stick_aft_norm);
+        self.device.set(context, AxisControl::StickRight, to.stick_right_norm);
+        self.device.set(context, AxisControl::PedalRight, to.pedal_right_norm);
+        self.device.set(context, AxisControl::Collective, to.lever_norm);
         if self.order.run_on {
             let brake_norm = self.brake(seen);
-            self.device.set(reach, AxisControl::BrakeLeft, brake_norm);
-            self.device.set(reach, AxisControl::BrakeRight, brake_norm);
+            self.device.set(context, AxisControl::BrakeLeft, brake_norm);
+            self.device.set(context, AxisControl::BrakeRight, brake_norm);
         }
         if self.steady.is_none() {
-            self.switches(seen, reach);
+            self.switches(seen, context);
         }
         if over {
             self.at += 1;
-            self.since_tick = reach.tick;
+            self.since_tick = context.tick;
             self.order.turned_rad = 0.0;
         } else if since_s > phase.patience_s() {
             self.give_up("it takes too long");
-            *reach.gave_up = self.failed;
-            *reach.done = true;
+            *context.gave_up = self.failed;
+            *context.done = true;
         }
     }
 }

@@ -6,10 +6,10 @@ use engine::math::{FRAC_PI_2, atan2, clamp, cos, max, min, sin, sqrt, wrap_angle
 use engine::units::KNOT_MPS;
 use engine::{Outputs, STEP_S};
 
-use super::skill::{Aim, Eyes, HAND_S, Positions};
+use super::skill::{Aim, HAND_S, Observation, Positions};
 use super::sweep::{self, Axis};
 use super::{Pilot, bearing};
-use crate::hands::Reach;
+use crate::controller::TickContext;
 
 /// One part of a pilot's flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -184,7 +184,7 @@ impl Pilot {
         phase: Phase,
         seen: &Outputs,
         since_s: f64,
-        reach: &mut Reach<'_>,
+        context: &mut TickContext<'_>,
     ) -> bool {
         let order = &mut self.order;
         order.airspeed_mps += HAND_S / 0.5 * (seen.calibrated_airspeed_mps - order.airspeed_mps);
@@ -205,7 +205,7 @@ impl Pilot {
                 (height_m - to_m).abs() < 1.0
             }
             Phase::Mark => {
-                self.device.tap(reach, ButtonControl::Marker);
+                self.device.tap(context, ButtonControl::Marker);
                 true
             }
             Phase::Accelerate { knots, height_m: to_m } => {
@@ -254,7 +254,7 @@ impl Pilot {
                 off_rad.abs() < 0.05 && seen.angular_rate_radps.z.abs() < 0.03
             }
             Phase::Land | Phase::Autorotate => self.touched_tick.is_some_and(|touched| {
-                let down_s = (reach.tick - touched) as f64 * STEP_S;
+                let down_s = (context.tick - touched) as f64 * STEP_S;
                 down_s > SETTLE_S && (seen.velocity_mps.norm() < ROLLING_MPS || down_s > ROLL_S)
             }),
         }
@@ -322,7 +322,7 @@ impl Pilot {
     /// A speed over the ground, no slower than the nacelles allow, which come aft meanwhile.
     fn slow_down(&mut self, seen: &Outputs, slow_mps: f64) {
         let order = &mut self.order;
-        if slow_mps < Eyes::look(seen).forward_mps + 3.0 {
+        if slow_mps < Observation::look(seen).forward_mps + 3.0 {
             order.nacelles = Nacelles::Aft;
         }
         order.over_ground = true;
@@ -332,7 +332,7 @@ impl Pilot {
         order.gear_down |= order.airspeed_mps < GEAR_MPS_MAX;
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
         let slowest_mps = self.corridor.slowest_mps(tilt_rad);
-        let along_mps = Eyes::look(seen).forward_mps;
+        let along_mps = Observation::look(seen).forward_mps;
         let keep_mps = if slowest_mps > 0.0 {
             slowest_mps + CORRIDOR_MPS - (order.airspeed_mps - along_mps)
         } else {
@@ -353,7 +353,7 @@ impl Pilot {
 
     /// Speeds that serve the orders, and hold the spot when there is one.
     fn aim(&mut self, phase: Phase, seen: &Outputs) -> Aim {
-        let eyes = Eyes::look(seen);
+        let eyes = Observation::look(seen);
         let order = &mut self.order;
         let climb_mps = if phase == Phase::Land {
             -clamp(0.3 * (seen.height_above_ground_m - 2.3), 0.4, 1.6)
@@ -434,7 +434,7 @@ impl Pilot {
     }
 
     /// Thumb switches and handles: nacelles, rotor speed, flaps, gear.
-    pub(super) fn switches(&mut self, seen: &Outputs, reach: &mut Reach<'_>) {
+    pub(super) fn switches(&mut self, seen: &Outputs, context: &mut TickContext<'_>) {
         let order = &self.order;
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
         // The governor is given time to follow: the rotors' own warnings come at 625 rpm and 90 %.
@@ -461,13 +461,13 @@ impl Pilot {
                 [(-1, ButtonControl::NacelleForward), (1, ButtonControl::NacelleAft)]
             {
                 if self.thumb == way || thumb == way {
-                    self.device.press(reach, button, thumb == way);
+                    self.device.press(context, button, thumb == way);
                 }
             }
             self.thumb = thumb;
         }
 
-        let rested = (reach.tick - self.handle_tick) as f64 * STEP_S > HANDLE_S;
+        let rested = (context.tick - self.handle_tick) as f64 * STEP_S > HANDLE_S;
         if !rested {
             return;
         }
@@ -490,8 +490,8 @@ impl Pilot {
             }
         };
         if let Some(button) = handle {
-            self.device.tap(reach, button);
-            self.handle_tick = reach.tick;
+            self.device.tap(context, button);
+            self.handle_tick = context.tick;
         }
     }
 }

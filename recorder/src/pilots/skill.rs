@@ -61,7 +61,7 @@ pub struct Positions {
 
 /// What is seen out of the window, on the dials, and felt in the seat.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Eyes {
+pub struct Observation {
     /// Over the ground along the nose.
     pub forward_mps: f64,
     /// Over the ground to the right.
@@ -76,7 +76,7 @@ pub struct Eyes {
     pub on_wheels_norm: f64,
 }
 
-impl Eyes {
+impl Observation {
     /// Looks.
     pub fn look(seen: &Outputs) -> Self {
         let (s, c) = (sin(seen.euler.heading_rad), cos(seen.euler.heading_rad));
@@ -163,7 +163,7 @@ impl Skill {
 
     /// Moves the hands once.
     pub fn fly(&mut self, seen: &Outputs, aim: &Aim) -> Positions {
-        let eyes = Eyes::look(seen);
+        let eyes = Observation::look(seen);
         // Below 30 kt it is a helicopter over a spot, above 50 kt something that flies.
         let flying = if aim.any_way { 0.0 } else { ramp(seen.airspeed_mps, 15.0, 26.0) };
         let (pitch_rad, lever_norm) = self.pitch_and_lever(seen, &eyes, aim, flying);
@@ -179,14 +179,14 @@ impl Skill {
     ) -> Positions {
         let flying = ramp(seen.airspeed_mps, 15.0, 26.0);
         (self.pitch_rad, self.lever_norm) = (pitch_rad, lever_norm);
-        self.sticks(seen, &Eyes::look(seen), aim, flying, (pitch_rad, lever_norm))
+        self.sticks(seen, &Observation::look(seen), aim, flying, (pitch_rad, lever_norm))
     }
 
     /// Stick and pedals that serve an attitude.
     fn sticks(
         &mut self,
         seen: &Outputs,
-        eyes: &Eyes,
+        eyes: &Observation,
         aim: &Aim,
         flying: f64,
         (pitch_rad, lever_norm): (f64, f64),
@@ -229,7 +229,7 @@ impl Skill {
     fn pitch_and_lever(
         &mut self,
         seen: &Outputs,
-        eyes: &Eyes,
+        eyes: &Observation,
         aim: &Aim,
         flying: f64,
     ) -> (f64, f64) {
@@ -249,7 +249,7 @@ impl Skill {
         let up_mps2 = clamp(climb_per_s * climb_off_mps, -UP_MPS2_MAX, UP_MPS2_MAX);
 
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
-        let learned = Learned::at(seen, tilt_rad);
+        let learned = ControlEffectiveness::at(seen, tilt_rad);
         self.watch_torque(seen);
         let (mut at_once_rad, at_once_norm) =
             learned.hands(AT_ONCE * forward_mps2, AT_ONCE * up_mps2);
@@ -304,7 +304,7 @@ impl Skill {
     }
 
     /// Bank: to the side when slow, to the heading when fast.
-    fn roll(&mut self, seen: &Outputs, eyes: &Eyes, aim: &Aim, flying: f64) -> f64 {
+    fn roll(&mut self, seen: &Outputs, eyes: &Observation, aim: &Aim, flying: f64) -> f64 {
         let right_off = aim.right_mps - eyes.right_mps;
         let slow = 1.0 - flying;
         if eyes.on_wheels_norm < 0.1 {
@@ -329,7 +329,7 @@ impl Skill {
 }
 
 /// What the pilot has learned about the aircraft's answer to attitude and lever.
-struct Learned {
+struct ControlEffectiveness {
     /// Z_α, m/s² per rad.
     lift_mps2: f64,
     /// Z_l·sin β and Z_l·cos β, m/s² for the whole lever.
@@ -337,7 +337,7 @@ struct Learned {
     up_mps2: f64,
 }
 
-impl Learned {
+impl ControlEffectiveness {
     fn at(seen: &Outputs, tilt_rad: f64) -> Self {
         let v = seen.airspeed_mps;
         let q_pa = 0.5 * seen.air.density_kg_per_m3 * v * v;

@@ -17,7 +17,7 @@
 use engine::Outputs;
 use engine::math::{PI, clamp, cos, exp, ln, min, ramp, sin, wrap_angle};
 
-use super::skill::{Eyes, Positions};
+use super::skill::{Observation, Positions};
 
 /// Lowest and highest frequency, rad/s.
 const BAND_RADPS: [f64; 2] = [0.2, 15.0];
@@ -110,7 +110,7 @@ pub struct Steady {
 impl Steady {
     /// As it is.
     pub fn of(seen: &Outputs) -> Self {
-        let eyes = Eyes::look(seen);
+        let eyes = Observation::look(seen);
         Self {
             hands: Positions {
                 stick_aft_norm: seen.cockpit.stick_aft_norm,
@@ -129,7 +129,7 @@ impl Steady {
 
     /// Where the hands go to keep it, with so much of a sweep.
     pub fn positions(&self, seen: &Outputs, sweep: Option<(Axis, f64)>) -> Positions {
-        let eyes = Eyes::look(seen);
+        let eyes = Observation::look(seen);
         let slow = 1.0 - ramp(seen.airspeed_mps, 15.0, 26.0);
         let upright = cos(seen.actuators.mast_tilt_rad.mean());
         let q_pa = 0.5 * seen.air.density_kg_per_m3 * seen.airspeed_mps * seen.airspeed_mps;

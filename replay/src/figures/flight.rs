@@ -10,7 +10,7 @@ use engine::pair::Pair;
 use engine::units::degrees;
 use engine::{Outputs, STEP_NS, STEP_S};
 use logs::FlightReader;
-use logs::records::{Happening, TimingRecord};
+use logs::records::{FlightEvent, TimingRecord};
 use logs::view::Level;
 
 use crate::judgement::{Judgement, Outcome};
@@ -162,7 +162,7 @@ pub struct Happened {
     /// When.
     pub tick: u64,
     /// What, where it is known.
-    pub what: Option<Happening>,
+    pub what: Option<FlightEvent>,
     /// How grave.
     pub level: Level,
     /// In words.
@@ -180,10 +180,10 @@ impl Happened {
     fn rank(&self) -> u8 {
         match (self.level, self.what) {
             (Level::Error, _) => 0,
-            (_, Some(Happening::Impact | Happening::Failures | Happening::GaveUp)) => 1,
-            (_, Some(Happening::WeightOnWheels | Happening::Marker)) => 2,
+            (_, Some(FlightEvent::Impact | FlightEvent::Failures | FlightEvent::GaveUp)) => 1,
+            (_, Some(FlightEvent::WeightOnWheels | FlightEvent::Marker)) => 2,
             (Level::Warn, _) => 3,
-            (_, Some(Happening::Phase)) => 5,
+            (_, Some(FlightEvent::Phase)) => 5,
             _ => 4,
         }
     }
@@ -211,7 +211,7 @@ pub struct Flight {
 }
 
 impl Flight {
-    /// The happenings that are numbered, in order, and how many are not.
+    /// The flight events that are numbered, in order, and how many are not.
     pub fn moments(&self) -> (Vec<&Happened>, usize) {
         let mut order: Vec<usize> = (0..self.happened.len()).collect();
         // Stable: of those that matter alike, the earlier ones.
@@ -310,21 +310,21 @@ impl Gatherer {
     pub fn finish(mut self, reader: &FlightReader, judgement: &Judgement) -> Flight {
         let exact = judgement.outcome == Outcome::Exact;
         self.flight.caveat = (!exact).then(|| judgement.words.clone());
-        let told = reader.happenings.len() == reader.remarks.len();
+        let told = reader.events.len() == reader.log_lines.len();
         self.flight.happened = reader
-            .remarks
+            .log_lines
             .iter()
             .enumerate()
-            .map(|(place, remark)| Happened {
-                tick: remark.time_ns / STEP_NS,
+            .map(|(place, line)| Happened {
+                tick: line.time_ns / STEP_NS,
                 // Each event is written with its words behind it.
                 what: reader
-                    .happenings
+                    .events
                     .get(place)
                     .filter(|_| told)
-                    .and_then(|event| Happening::from_u64(event.kind)),
-                level: remark.level,
-                words: remark.words.clone(),
+                    .and_then(|event| FlightEvent::from_u64(event.kind)),
+                level: line.level,
+                words: line.words.clone(),
             })
             .collect();
         self.flight
@@ -335,7 +335,7 @@ impl Gatherer {
 mod tests {
     use super::*;
 
-    fn happened(tick: u64, what: Happening, level: Level) -> Happened {
+    fn happened(tick: u64, what: FlightEvent, level: Level) -> Happened {
         Happened { tick, what: Some(what), level, words: format!("event at {tick}") }
     }
 
@@ -348,9 +348,9 @@ mod tests {
     fn what_is_grave_is_numbered_however_much_happens() {
         let mut flight = flight();
         flight.happened =
-            (0..40).map(|tick| happened(tick, Happening::Phase, Level::Info)).collect();
-        flight.happened.push(happened(50, Happening::Impact, Level::Error));
-        flight.happened.push(happened(60, Happening::Wind, Level::Info));
+            (0..40).map(|tick| happened(tick, FlightEvent::Phase, Level::Info)).collect();
+        flight.happened.push(happened(50, FlightEvent::Impact, Level::Error));
+        flight.happened.push(happened(60, FlightEvent::Wind, Level::Info));
         let (moments, left) = flight.moments();
         assert_eq!((moments.len(), left), (MOMENTS_MAX, 42 - MOMENTS_MAX));
         assert!(moments.iter().any(|moment| moment.tick == 50));
@@ -374,7 +374,7 @@ mod tests {
 
     #[test]
     fn a_figure_has_room_for_the_first_words() {
-        let mut told = happened(1, Happening::WeightOnWheels, Level::Info);
+        let mut told = happened(1, FlightEvent::WeightOnWheels, Level::Info);
         told.words = "lift-off, climbing 0.03 m/s at 0.01 m/s over the ground".into();
         assert_eq!(told.short(), "lift-off");
     }

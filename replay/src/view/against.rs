@@ -7,7 +7,7 @@ use engine::math::{PI, TAU, ln};
 use engine::{Aircraft, Inputs, State, observe, step};
 use logs::cdr;
 use logs::output::Output;
-use logs::view::Remark;
+use logs::view::LogLine;
 use rerun::{LineStrips3D, MediaType, Radius, Scalars, SeriesLines, TextDocument};
 
 use super::basics::{Severity, TICKS_PER_ROW, ViewError, level, severity};
@@ -196,12 +196,12 @@ impl LoggedFlight {
     }
 
     /// Reads what is left: what was told in it, and what it is.
-    fn told(mut self) -> (Vec<Remark>, Judgement) {
+    fn told(mut self) -> (Vec<LogLine>, Judgement) {
         while self.cursor.now.is_some() {
             self.cursor.advance();
         }
-        let remarks = std::mem::take(&mut self.cursor.reader.remarks);
-        (remarks, self.cursor.finish().judgement)
+        let log_lines = std::mem::take(&mut self.cursor.reader.log_lines);
+        (log_lines, self.cursor.finish().judgement)
     }
 
     fn first(&self) -> Result<State, ReplayError> {
@@ -323,12 +323,12 @@ impl Page {
     }
 
     /// What the first log is, and what happened in it.
-    fn tell_first(&mut self, start_tick: u64, judgement: &Judgement, remarks: &[Remark]) {
+    fn tell_first(&mut self, start_tick: u64, judgement: &Judgement, log_lines: &[LogLine]) {
         let (track, canvas) = (&mut self.first, &mut self.canvas);
         track.event(canvas, start_tick, severity(judgement), &judgement.words);
-        for remark in remarks {
-            let tick = remark.time_ns / engine::STEP_NS;
-            track.event(canvas, tick, level(remark.level), &remark.words);
+        for line in log_lines {
+            let tick = line.time_ns / engine::STEP_NS;
+            track.event(canvas, tick, level(line.level), &line.words);
         }
     }
 
@@ -337,14 +337,14 @@ impl Page {
         &mut self,
         start_tick: u64,
         judgement: &Judgement,
-        remarks: &[Remark],
+        log_lines: &[LogLine],
         how: &Comparison,
     ) {
         let (track, canvas) = (&mut self.second, &mut self.canvas);
         track.event(canvas, start_tick, severity(judgement), &judgement.words);
-        for remark in remarks {
-            let tick = how.back(remark.time_ns / engine::STEP_NS);
-            track.event(canvas, tick, level(remark.level), &remark.words);
+        for line in log_lines {
+            let tick = how.back(line.time_ns / engine::STEP_NS);
+            track.event(canvas, tick, level(line.level), &line.words);
         }
     }
 

@@ -15,7 +15,7 @@ use super::layout::Layout;
 use super::look::Look;
 use super::parts::Plan;
 use super::stamp::APPLICATION;
-use super::still::send_still_life;
+use super::still::send_static_scene;
 
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
@@ -65,7 +65,7 @@ impl Canvas {
         recording.send_recording_name(about.title.as_str())?;
         drawn
             .iter()
-            .try_for_each(|(look, aircraft)| send_still_life(&recording, look, aircraft))?;
+            .try_for_each(|(look, aircraft)| send_static_scene(&recording, look, aircraft))?;
         blueprint::send(&recording, BEGUN, (&layout, &plan), "", None)?;
         Ok(Self { recording, span: None, layout, plan, error: None })
     }

@@ -21,7 +21,7 @@ use super::{corridor, scenery, surfaces};
 const POSTS_MAX: usize = 60;
 
 /// Sends what does not move: shapes, colours, names.
-pub fn send_still_life(
+pub fn send_static_scene(
     recording: &RecordingStream,
     look: &Look,
     aircraft: &Aircraft,

@@ -6,7 +6,7 @@ use engine::STEP_S;
 use engine::frames::{Body, Vec3};
 use engine::math::{sqrt, square};
 use engine::rotors::blade::{Blade, STATIONS};
-use engine::rotors::elements::{Flow, Induced, Pitch, Sums, elements};
+use engine::rotors::elements::{BladeLoads, Flow, Induced, Pitch, elements};
 use engine::rotors::{self, Params, flapping, inflow, other_rotor};
 use nalgebra::{DMatrix, DVector};
 
@@ -166,11 +166,11 @@ impl Rotor {
     }
 
     /// What the air does to the blades: all sums, and F_q as mean, cosine and sine.
-    fn air(&self, form: Form, x: &[f64], u: &[f64; INPUTS]) -> (Sums, [f64; 3], Induced) {
+    fn air(&self, form: Form, x: &[f64], u: &[f64; INPUTS]) -> (BladeLoads, [f64; 3], Induced) {
         let precone_rad = self.params.flapping.precone_rad;
         let tan_delta3 = self.blade.tan_delta3;
         let state = inflow::State { mean_mps: x[0], aft_mps: x[1], right_mps: x[2] };
-        let passage = inflow::passage(&state, &self.flow);
+        let passage = inflow::disc_flow(&state, &self.flow);
         let collective_rad = self.collective_rad + u[Input::Collective as usize];
         let turn = engine::math::sin_cos(collective_rad);
         let induced = inflow::induced(
@@ -199,7 +199,7 @@ impl Rotor {
             let sums = elements(&self.blade, &self.flow, &pitch, &flapping_of(x), &induced);
             return (sums, [0.0; 3], induced);
         }
-        let (mut all, mut modal) = (Sums::default(), [0.0; 3]);
+        let (mut all, mut modal) = (BladeLoads::default(), [0.0; 3]);
         for i in 0..STATIONS {
             let norm = self.blade.stations[i].radius_m / self.params.radius_m;
             let (phi, slope) = shape(norm);
@@ -244,12 +244,12 @@ impl Rotor {
         let (sums, modal, _) = self.air(form, x, u);
         let blades = self.params.blade.count;
         let state = inflow::State { mean_mps: x[0], aft_mps: x[1], right_mps: x[2] };
-        let forcing = inflow::Forcing {
+        let forcing = inflow::DiscLoads {
             thrust_n: blades * sums.up_n,
             aft_n_m: 0.5 * blades * sums.flap_cos_n_m,
             right_n_m: 0.5 * blades * sums.flap_sin_n_m,
         };
-        let passage = inflow::passage(&state, &self.flow);
+        let passage = inflow::disc_flow(&state, &self.flow);
         let radius_m = self.params.radius_m;
         let next = inflow::advance(&state, &passage, &self.flow, &forcing, radius_m);
         let mut rate = vec![
@@ -274,7 +274,7 @@ impl Rotor {
         &self,
         x: &[f64],
         pitch_radps: f64,
-        sums: &Sums,
+        sums: &BladeLoads,
         rate: &mut Vec<f64>,
         y: &mut [f64; OUTPUTS],
     ) {
@@ -307,7 +307,7 @@ impl Rotor {
         &self,
         x: &[f64],
         pitch_radps: f64,
-        sums: &Sums,
+        sums: &BladeLoads,
         modal: [f64; 3],
         rate: &mut Vec<f64>,
         y: &mut [f64; OUTPUTS],

@@ -5,7 +5,7 @@ use engine::envelope::Airframe;
 use engine::outputs::Validity;
 
 use super::observed::Observed;
-use crate::records::Happening;
+use crate::records::FlightEvent;
 use crate::{FlightWriter, LogError};
 
 /// What was told last.
@@ -66,8 +66,8 @@ impl Told {
             _ => ("touchdown", self.contact),
         };
         let words = format!("{name}{}", said(measured));
-        let (what, on) = (Happening::WeightOnWheels, self.weight_on_wheels);
-        writer.happened(state.tick, what, on, measured, &words)
+        let (what, on) = (FlightEvent::WeightOnWheels, self.weight_on_wheels);
+        writer.flight_event(state.tick, what, on, measured, &words)
     }
 
     /// A wheel came to the ground: what the gear is not designed for is told.
@@ -97,7 +97,7 @@ fn impact(
     what: &str,
 ) -> Result<(), LogError> {
     let words = format!("impact{}: {what}", said(measured));
-    writer.happened(tick, Happening::Impact, value, measured, &words)
+    writer.flight_event(tick, FlightEvent::Impact, value, measured, &words)
 }
 
 /// `, sinking 0.30 m/s at 1.2 m/s over the ground`.

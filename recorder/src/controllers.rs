@@ -1,14 +1,14 @@
-//! All hands of a flight, asked in their order.
+//! All controllers of a flight, asked in their order.
 
 use engine::Outputs;
 use engine::inputs::{DeviceEvent, World};
 
-use crate::hands::{GaveUp, Hands, Reach};
+use crate::controller::{Controller, GaveUp, TickContext};
 use crate::restart::Restart;
 
-/// All hands, and what they hold on to between ticks.
-pub(crate) struct Crew {
-    hands: Vec<Box<dyn Hands>>,
+/// All controllers, and what they hold on to between ticks.
+pub(crate) struct Controllers {
+    controllers: Vec<Box<dyn Controller>>,
     pub(crate) world: World,
     pub(crate) phase: (u64, &'static str),
     pub(crate) done: bool,
@@ -19,19 +19,19 @@ pub(crate) struct Crew {
     pub(crate) save: bool,
 }
 
-impl Crew {
+impl Controllers {
     /// Hands that have touched nothing yet.
-    pub(crate) fn new(hands: Vec<Box<dyn Hands>>, world: World) -> Self {
+    pub(crate) fn new(controllers: Vec<Box<dyn Controller>>, world: World) -> Self {
         let (phase, done, gave_up) = ((0, ""), false, None);
-        Self { hands, world, phase, done, gave_up, restart: None, save: false }
+        Self { controllers, world, phase, done, gave_up, restart: None, save: false }
     }
 
     /// How many events they send in one tick at most.
     pub(crate) fn events_a_tick(&self) -> usize {
-        self.hands.iter().map(|hand| hand.events_a_tick()).sum()
+        self.controllers.iter().map(|controller| controller.events_a_tick()).sum()
     }
 
-    /// Lets every hand act; returns the phase if it changed.
+    /// Lets every controller act; returns the phase if it changed.
     pub(crate) fn act(
         &mut self,
         tick: u64,
@@ -39,10 +39,10 @@ impl Crew {
         events: &mut Vec<DeviceEvent>,
     ) -> Option<(u64, &'static str)> {
         let before = self.phase.0;
-        for hand in &mut self.hands {
-            hand.act(
+        for controller in &mut self.controllers {
+            controller.act(
                 seen,
-                &mut Reach {
+                &mut TickContext {
                     tick,
                     events,
                     world: &mut self.world,

@@ -6,8 +6,8 @@ use engine::inputs::{DeviceEvent, EventKind, World};
 
 use crate::restart::Restart;
 
-/// What hands may touch in one tick.
-pub struct Reach<'a> {
+/// What a controller may touch in one tick.
+pub struct TickContext<'a> {
     /// Tick whose step uses it.
     pub tick: u64,
     /// Device events, appended in order.
@@ -43,7 +43,7 @@ impl std::fmt::Display for GaveUp {
     }
 }
 
-impl Reach<'_> {
+impl TickContext<'_> {
     /// Adds a device event of this tick.
     pub fn send(&mut self, device: u64, kind: EventKind, code: u64, value: i64) {
         self.events.push(DeviceEvent {
@@ -59,9 +59,9 @@ impl Reach<'_> {
 }
 
 /// Moves controls.
-pub trait Hands: Send {
+pub trait Controller: Send {
     /// What it does in this tick, having seen the aircraft after the one before.
-    fn act(&mut self, seen: &Outputs, reach: &mut Reach<'_>);
+    fn act(&mut self, seen: &Outputs, context: &mut TickContext<'_>);
 
     /// How many events it sends in one tick at most: room is made for them before the flight.
     fn events_a_tick(&self) -> usize {

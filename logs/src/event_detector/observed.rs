@@ -1,4 +1,4 @@
-//! What the narrator looks at after every tick.
+//! What the event detector looks at after every tick.
 
 use engine::Outputs;
 use engine::fcc::scas::Saturation;

@@ -14,11 +14,11 @@ use engine::units::{degrees, knots};
 
 pub use observed::Observed;
 
-use crate::records::{Happening, InputsRecord, RestartCause, RestartRecord};
+use crate::records::{FlightEvent, InputsRecord, RestartCause, RestartRecord};
 use crate::{FlightWriter, LogError};
 
 /// What was told last.
-pub struct Narrator {
+pub struct EventDetector {
     markers: u64,
     world: World,
     /// Whether the gust of that world has been told.
@@ -29,7 +29,7 @@ pub struct Narrator {
     wheels: wheels::Told,
 }
 
-impl Narrator {
+impl EventDetector {
     /// Nothing has happened yet.
     pub fn new(initial: &State, airframe: &Airframe) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl Narrator {
         self.wheels.restart(state);
         let known = RestartCause::from_u64(*cause);
         let words = known.map_or("another state", |cause| cause.facts().words);
-        writer.happened(state.tick, Happening::Restarted, *cause, [0.0; 2], words)
+        writer.flight_event(state.tick, FlightEvent::Restarted, *cause, [0.0; 2], words)
     }
 
     /// A device event, after it was written.
@@ -70,18 +70,18 @@ impl Narrator {
         let Some(kind) = EventKind::from_u64(event.kind) else { return Ok(()) };
         let words = format!("device {} {}", event.device, kind.facts().key);
         let (what, words) = match kind {
-            EventKind::Connected => (Happening::DeviceConnected, words),
-            EventKind::Disconnected => (Happening::DeviceDisconnected, words),
+            EventKind::Connected => (FlightEvent::DeviceConnected, words),
+            EventKind::Disconnected => (FlightEvent::DeviceDisconnected, words),
             EventKind::Dropped => {
                 let words = format!("device {}: the kernel lost events", event.device);
-                (Happening::EventsLost, words)
+                (FlightEvent::EventsLost, words)
             }
             EventKind::Axis
             | EventKind::Button
             | EventKind::AxisPosition
             | EventKind::ButtonPosition => return Ok(()),
         };
-        writer.happened(event.tick, what, event.device, [0.0; 2], &words)
+        writer.flight_event(event.tick, what, event.device, [0.0; 2], &words)
     }
 
     /// The world of a tick, after it was written.
@@ -97,11 +97,17 @@ impl Narrator {
         self.world = now;
         if now.failures != was.failures {
             let words = failures(was.failures, now.failures);
-            writer.happened(tick, Happening::Failures, now.failures.bits(), [0.0; 2], &words)?;
+            writer.flight_event(
+                tick,
+                FlightEvent::Failures,
+                now.failures.bits(),
+                [0.0; 2],
+                &words,
+            )?;
         }
         if now.paused != was.paused {
             let words = if now.paused != 0 { "paused" } else { "goes on" };
-            writer.happened(tick, Happening::Paused, now.paused, [0.0; 2], words)?;
+            writer.flight_event(tick, FlightEvent::Paused, now.paused, [0.0; 2], words)?;
         }
         let outside = |world: &World| world.outside_commands().is_some();
         if outside(&now) != outside(&was) {
@@ -111,7 +117,7 @@ impl Narrator {
                 "actuators: commanded by the flight control computer"
             };
             let level = u64::from(outside(&now));
-            writer.happened(tick, Happening::InputLevel, level, [0.0; 2], words)?;
+            writer.flight_event(tick, FlightEvent::InputLevel, level, [0.0; 2], words)?;
         }
         self.weather(writer, tick, &was)
     }
@@ -127,7 +133,7 @@ impl Narrator {
         if (now.wind_mps, now.wind_roughness_m) != (was.wind_mps, was.wind_roughness_m) {
             let (wind, words) = wind(&now);
             let blows = u64::from(wind[0] > 0.0);
-            writer.happened(tick, Happening::Wind, blows, wind, &words)?;
+            writer.flight_event(tick, FlightEvent::Wind, blows, wind, &words)?;
         }
         let same_gust = (now.gust_mps, now.gust_s, now.gust_start_tick)
             == (was.gust_mps, was.gust_s, was.gust_start_tick);
@@ -141,13 +147,13 @@ impl Narrator {
                 v.x, v.y, -v.z, now.gust_s
             );
             let measured = [v.norm(), now.gust_s];
-            writer.happened(tick, Happening::Gust, now.gust_start_tick, measured, &words)?;
+            writer.flight_event(tick, FlightEvent::Gust, now.gust_start_tick, measured, &words)?;
         }
         if now.turbulence_mps.to_bits() != was.turbulence_mps.to_bits() {
             let words = format!("turbulence: {:.1} m/s, vertical intensity", now.turbulence_mps);
             let rough = u64::from(now.turbulence_mps > 0.0);
             let measured = [now.turbulence_mps, 0.0];
-            writer.happened(tick, Happening::Turbulence, rough, measured, &words)?;
+            writer.flight_event(tick, FlightEvent::Turbulence, rough, measured, &words)?;
         }
         Ok(())
     }
@@ -165,24 +171,24 @@ impl Narrator {
         if state.cockpit.markers != self.markers {
             self.markers = state.cockpit.markers;
             let words = format!("marker {}", self.markers);
-            writer.happened(state.tick, Happening::Marker, self.markers, [0.0; 2], &words)?;
+            writer.flight_event(state.tick, FlightEvent::Marker, self.markers, [0.0; 2], &words)?;
         }
         let has_fuel = state.plant.fuel_kg > 0.0;
         if !has_fuel && self.has_fuel {
             let out = Failures::ENGINES - self.world.failures;
             let words = format!("fuel exhausted; out by it: {out}");
-            writer.happened(state.tick, Happening::Fuel, out.bits(), [0.0; 2], &words)?;
+            writer.flight_event(state.tick, FlightEvent::Fuel, out.bits(), [0.0; 2], &words)?;
         }
         // Nobody fills the tanks in flight; a drop that comes back by rounding is none.
         self.has_fuel &= has_fuel;
         self.wheels.look(writer, state, seen)?;
         if let Some(words) = self.saturation.look(state.tick, seen.saturated) {
             let flags = self.saturation.flags.bits();
-            writer.happened(state.tick, Happening::Saturation, flags, [0.0; 2], &words)?;
+            writer.flight_event(state.tick, FlightEvent::Saturation, flags, [0.0; 2], &words)?;
         }
         let Some(words) = self.validity.look(state.tick, seen.validity) else { return Ok(()) };
         let flags = self.validity.flags.bits();
-        writer.happened(state.tick, Happening::Validity, flags, [0.0; 2], &words)
+        writer.flight_event(state.tick, FlightEvent::Validity, flags, [0.0; 2], &words)
     }
 }
 

@@ -20,11 +20,11 @@ const OUTPUTS_TICKS: u64 = 5;
 
 /// Makes an aircraft, and the world in which its flight begins, of the files in the log. This crate
 /// does not read them itself.
-pub type AircraftOf = fn(&Setup) -> Result<Flown, LogError>;
+pub type FlightModelOf = fn(&Setup) -> Result<FlightModel, LogError>;
 
 /// The aircraft of a log, and the world in which its flight begins.
 #[derive(Clone)]
-pub struct Flown {
+pub struct FlightModel {
     /// With its cockpit map.
     pub aircraft: Aircraft,
     /// By the scenario.
@@ -37,8 +37,8 @@ pub fn short_digest(message: &[u8]) -> u32 {
 }
 
 /// Flies what the log says.
-pub struct Flier {
-    pub of: Flown,
+pub struct Regenerator {
+    pub of: FlightModel,
     shape: Shape,
     /// After the last tick; as it was recorded, where it was.
     pub state: State,
@@ -67,9 +67,9 @@ pub struct FlownTick {
     pub outputs: Option<Box<Outputs>>,
 }
 
-impl Flier {
+impl Regenerator {
     /// With the aircraft and the world of the log.
-    pub fn new(of: Flown) -> Self {
+    pub fn new(of: FlightModel) -> Self {
         Self {
             shape: Shape::of(&of.aircraft),
             of,
