@@ -4,7 +4,11 @@
 //! A case has a class, and its rows have it too unless they say otherwise. A row is a number, and says
 //! what stands against counting it as a prediction:
 //! ```text
-//! let mut case = Case::new(15, Class::A, "title", "source", "why these tolerances, why it misses");
+//! let mut case = Case::new(15, Class::A, "title", "source")
+//!     .tolerance("why this wide")
+//!     .set_up("what was assumed")
+//!     .misses("why ours differs, as far as is known")
+//!     .settled_by("which information would decide it");
 //! case.row("power, kW", 1480.0, ours, Band::Part(0.08), 0);
 //! case.row("pitch, deg", 1.11, ours, Band::Within(0.3), 2).class(Class::B);
 //! case.row("C_T", 0.01, ours, Band::Part(0.03), 4).fitted(&[Fit::InducedPower]);
@@ -117,6 +121,31 @@ pub struct Row {
     pub twice: Option<&'static str>,
 }
 
+/// What a note to a case is about.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Topic {
+    /// Why the tolerances are as wide as they are.
+    Tolerance,
+    /// Conditions, and what was assumed where the source is silent.
+    SetUp,
+    /// Why ours differs, as far as it is known.
+    Misses,
+    /// Which information would decide who is right. A measured number that is missed must have it.
+    SettledBy,
+}
+
+impl Topic {
+    /// In front of a note.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Tolerance => "Tolerance",
+            Self::SetUp => "Set-up",
+            Self::Misses => "Why it misses",
+            Self::SettledBy => "What would settle it",
+        }
+    }
+}
+
 /// One case of the validation plan.
 pub struct Case {
     /// Its number in the plan.
@@ -127,8 +156,8 @@ pub struct Case {
     pub title: String,
     /// Where the published numbers come from.
     pub source: String,
-    /// Why the tolerances are what they are, and how the case was set up.
-    pub why: String,
+    /// What is to be known about it, in the order of the page.
+    pub notes: Vec<(Topic, String)>,
     /// The numbers.
     pub rows: Vec<Row>,
 }
@@ -224,15 +253,58 @@ impl Row {
 
 impl Case {
     /// A case without rows.
-    pub fn new(number: u64, class: Class, title: &str, source: &str, why: &str) -> Self {
+    pub fn new(number: u64, class: Class, title: &str, source: &str) -> Self {
         Self {
             number,
             class,
             title: title.into(),
             source: source.into(),
-            why: why.into(),
+            notes: Vec::new(),
             rows: Vec::new(),
         }
+    }
+
+    fn note(mut self, topic: Topic, text: impl Into<String>) -> Self {
+        self.notes.push((topic, text.into()));
+        self
+    }
+
+    /// Why the tolerances are as wide as they are.
+    pub fn tolerance(self, text: impl Into<String>) -> Self {
+        self.note(Topic::Tolerance, text)
+    }
+
+    /// Conditions, and what was assumed where the source is silent.
+    pub fn set_up(self, text: impl Into<String>) -> Self {
+        self.note(Topic::SetUp, text)
+    }
+
+    /// Why ours differs, as far as it is known.
+    pub fn misses(self, text: impl Into<String>) -> Self {
+        self.note(Topic::Misses, text)
+    }
+
+    /// Which information would decide who is right.
+    pub fn settled_by(self, text: impl Into<String>) -> Self {
+        self.note(Topic::SettledBy, text)
+    }
+
+    /// Which information would decide about its misses.
+    ///
+    /// # Panics
+    /// If a measured number is missed and nothing is said of it.
+    pub fn would_be_settled_by(&self) -> &str {
+        let found = self.notes.iter().find(|(topic, _)| *topic == Topic::SettledBy);
+        let Some((_, text)) = found else {
+            panic!("case {} misses a measured number: say what would settle it", self.number)
+        };
+        text
+    }
+
+    /// The measured numbers that are missed.
+    pub fn measured_misses(&self) -> impl Iterator<Item = &Row> {
+        let is_missed = |row: &&Row| row.class == Class::A && row.verdict() == Verdict::Miss;
+        self.rows.iter().filter(is_missed)
     }
 
     /// Adds a number; what stands against counting it is said of what comes back.
@@ -291,7 +363,7 @@ mod tests {
     use super::*;
 
     fn verdict(published: f64, ours: f64, band: Band) -> Verdict {
-        let mut case = Case::new(0, Class::A, "", "", "");
+        let mut case = Case::new(0, Class::A, "", "");
         case.row("", published, ours, band, 0).verdict()
     }
 
@@ -317,7 +389,7 @@ mod tests {
     #[test]
     fn what_was_fitted_checked_twice_or_ours_is_no_prediction() {
         let counts = |mark: fn(&mut Row)| {
-            let mut case = Case::new(0, Class::A, "", "", "");
+            let mut case = Case::new(0, Class::A, "", "");
             let row = case.row("", 1.0, 1.0, Band::Part(0.1), 0);
             mark(row);
             row.is_prediction()

@@ -140,21 +140,37 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
         Class::A,
         "frequency responses and modes, SCAS off",
         "Identified in flight, NASA TM-89428. Hover, and aeroplane at 170 KIAS (180 KCAS), 8,000 ft.",
-        "±3 dB and ±20 deg within the band of validity: what handling-quality work calls a good model. \
-         Poles ±15 % and ±.1 of damping ratio. Weight 13,000 lb, centre of gravity aft, 458 rpm in cruise.\n\n\
-         Hover, pitch: from 1 rad/s on it is the control's power over the inertia, and agrees. Below, it is \
-         the oscillation, and that of the flight model takes a pitching moment with speed of \
-         (σ² + ω²)·1.32/g = .045 rad/s² per m/s. Ours is about .01: what the discs' tilt with speed in hover and \
-         the in-plane forces make at the hubs (closed form .011). Trims have less still: from 0 to 20 kt the \
-         reference model's stick moves .12 in, which is .002. Its damping, .3 1/s, is that of the discs' \
-         lag less Amer's in-plane force, which a test holds to theory. No known term makes either number \
-         three times as large.\n\n\
-         Hover, heave: blade elements against momentum have .14 to .20 1/s at this disc loading, whether \
-         collective or power stands; .105 is less than either.\n\n\
-         Cruise: the flight model's elevator has 7.4 deg/s² per degree, the reference model's tables (2.29 \
-         of lift per rad, KH has the same) 13.5, with the pressure factor of the tail that CR-166536 gives \
-         (.8, here as an aeroplane only: the printouts at 40 to 100 kt leave it out) 10.8. That is the 3 dB \
-         which are left.",
+    )
+    .tolerance(
+        "±3 dB and ±20 deg within the band of validity: what handling-quality work calls a good \
+         model. Poles ±15 % and ±.1 of damping ratio.",
+    )
+    .set_up(
+        "13,000 lb, centre of gravity aft, 458 rpm in cruise.",
+    )
+    .misses(
+        "Hover, pitch: from 1 rad/s on it is the control's power over the inertia, and agrees. \
+         Below, it is the oscillation, and that of the identified model takes a pitching moment \
+         with speed of (σ² + ω²)·1.32/g = .045 rad/s² per m/s. Ours is about .01: what the discs' \
+         tilt with speed and the in-plane forces make at the hubs (closed form .011). Trims have \
+         less still: from 0 to 20 kt the stick of GTRS moves .12 in, which is .002. Its damping, \
+         .3 1/s, is that of the discs' lag less Amer's in-plane force, which a test holds to \
+         theory. No known term makes either number three times as large.",
+    )
+    .misses(
+        "Hover, heave: blade elements against momentum have .14 to .20 1/s at this disc loading, \
+         whether collective or power is held; the identified .105 is less than either.",
+    )
+    .misses(
+        "Cruise: the identified elevator has 7.4 deg/s² per degree. The tables of GTRS (2.29 of \
+         lift per rad, KH has the same) have 13.5, and 10.8 with the tail's pressure factor of \
+         CR-166536 (.8, here as an aeroplane only: the printouts at 40 to 100 kt leave it out). \
+         That is the 3 dB which are left.",
+    )
+    .settled_by(
+        "The time histories of the sweeps. They would tell the low-frequency fit in hover from \
+         the aircraft, and whether the elevator's deflection was measured at the surface or at \
+         the stick in cruise.",
     );
     let hover = hovering(aircraft);
     let cruise = cruising(aircraft);
@@ -237,18 +253,26 @@ pub fn control(aircraft: &Aircraft, book: &mut Book) {
         Class::C,
         "hover control, SCAS off and on",
         "NASA TM X-62,407 Table 8.3.2, before the first flight.",
-        "±25 %, sanity only. Ours is flown here with what the table belongs to, the inertia of 1975 (42,400, \
-         14,300 and 49,500 slug ft² for 52,795, 21,360 and 66,335) and its 565 rpm; rotors, gearing and \
-         SCAS are those of every other case. The gains of the SCAS were solved back from this very table, \
-         so that the nine numbers with it predict nothing.\n\n\
-         The table does not agree with itself, so that nobody can with all of it. An acceleration S against a \
-         damping D turns by S/D·(1 − (1 − exp(−D))/D) in a second: roll off, .471 and .77 make 10.6 deg, not \
-         6.6; yaw on, .328 makes 9.4 deg with no damping at all, not 15.0; roll on, .489 and 1.82 make 8.3 \
-         deg, not 11.5. Damping in pitch and roll is that of \
-         ideal rotors: without the in-plane force of a rotor that turns (Amer), which takes nearly half of \
-         what the tilt of a loaded proprotor gives, and without the losses of its inflow, ours were .9 and \
-         .8 1/s. Roll sensitivity: the published gearing, .625 deg/in, at the measured thrust \
-         slope and 565 rpm makes .27 rad/s²/in.",
+    )
+    .tolerance("±25 %, sanity only.")
+    .set_up(
+        "Flown with what the table belongs to: the inertia of 1975 (42,400, 14,300 and 49,500 \
+         slug ft² for 52,795, 21,360 and 66,335) and its 565 rpm; rotors, gearing and SCAS are \
+         those of every other case. The gains of the SCAS were solved back from this very table, \
+         so that the nine numbers with it predict nothing.",
+    )
+    .misses(
+        "The table does not agree with itself. An acceleration S against a damping D turns by \
+         S/D·(1 − (1 − exp(−D))/D) in a second: roll off, .471 and .77 make 10.6 deg, not 6.6; \
+         yaw on, .328 makes 9.4 deg with no damping at all, not 15.0; roll on, .489 and 1.82 make \
+         8.3 deg, not 11.5.",
+    )
+    .misses(
+        "Damping in pitch and roll is that of ideal rotors: without the in-plane force of a \
+         turning rotor (Amer), which takes nearly half of what the tilt of a loaded proprotor \
+         gives, and without the losses of its inflow, ours were .9 and .8 1/s. Roll sensitivity: \
+         the published gearing, .625 deg/in, at the measured thrust slope and 565 rpm makes .27 \
+         rad/s²/in.",
     );
     let aircraft = &of_1975(aircraft);
     let axes = ["pitch", "roll", "yaw"];
@@ -288,8 +312,9 @@ pub fn symmetry(aircraft: &Aircraft, book: &mut Book) {
         Class::Own,
         "left and right exchanged",
         "No source: what mirrors must fly as the mirror image.",
-        "Exact, to the bit: 500 ticks with stick and pedal over, and the same mirrored.",
-    );
+    )
+    .tolerance("Exact, to the bit.")
+    .set_up("500 ticks with stick and pedal over, and the same mirrored.");
     for (name, mast_tilt_rad, speed_kt, flap_detent) in [
         ("hover", 0.0, 0.0, 2),
         ("conversion, 120 kt", 0.25 * PI, 120.0, 1),

@@ -25,12 +25,23 @@ pub fn aeroplane(aircraft: &Aircraft, book: &mut Book) {
         Class::A,
         "power as an aeroplane at 517 and 458 rpm, level",
         "Flight, and GTRS (B), both digitised from Wang et al. 2025 fig. 1.",
-        "±8 %, twice the reading, as in case 4. The figure does not tell the rotor speed. The published \
-         collective of GTRS stands 3.2 to 3.7 deg above ours at 517 rpm, as at every nacelle angle whose \
-         rotor speed is known (3.3 to 4.5), and .2 to .3 deg at 458 rpm: 517 rpm is the likelier, and the \
-         rows at 458 rpm are the same measurements again. The points of flight at 159 and 202 kt are as \
-         read; those of case 4 have 45 kW for the digitiser's bias, with which these would be 608 and \
-         982 kW.",
+    )
+    .tolerance(
+        "±8 %, twice the reading, as in case 4.",
+    )
+    .set_up(
+        "The figure does not tell the rotor speed. The published collective of GTRS stands 3.2 to \
+         3.7 deg above ours at 517 rpm, as at every nacelle angle whose rotor speed is known (3.3 \
+         to 4.5), and .2 to .3 deg at 458 rpm: 517 rpm is the likelier, and the rows at 458 rpm \
+         are the same measurements again.",
+    )
+    .misses(
+        "The points of flight do not lie on one curve: those at 159 and 202 kt are as read, that at \
+         184 kt has 45 kW for the digitiser's bias, with which the others would be 608 and 982 kW. At 517 rpm \
+         ours is 9 % above the slowest, 10 % below the one at 184 kt and 5 % below the fastest.",
+    )
+    .settled_by(
+        "The figure's original, and rotor speed and weight of each point.",
     );
     for (rpm_select, rpm) in [(1, 517), (2, 458)] {
         for (airspeed_mps, published_kw) in [(82.0, 563.0), (104.1, 937.0)] {
@@ -123,16 +134,24 @@ pub fn ceilings(aircraft: &Aircraft, book: &mut Book) {
         Class::A,
         "envelope: how high it flies at a speed",
         "NASA TM-81244 figs. 11 and 15.",
-        "±1,500 ft: the reading of the figure. True airspeed, 13,000 lb, standard day, 100 ft/min left at normal \
-         rated power (1,110 of 1,375 hp of take-off power), which the source says of its service ceiling at \
-         205 kt; what the rest of the boundary is, and at which weight, it does not say. (At 0 kt the figure has \
-         9,600 ft, 2,000 ft over the report's own ceiling of hover at take-off power, case 6.) Ours is the \
-         highest that any of seven ways gives: nacelles at 90 (flaps 40), 75, 60 and 30 deg (flaps 20) inside the \
-         corridor of the report's fig. 14, and as an aeroplane at 589, 517 and 458 rpm. At 50 kt, nacelles at \
-         90 deg, ours ends where the blades stall, not by power. At 150 kt it ends where the wing stalls: \
-         25,000 ft are 100 kt of equivalent airspeed there, and ours stalls at 105 (case 8). The engines' data \
-         end at 20,000 ft (take-off 790 hp for 1,375). Weight and power of each point would settle the rest.",
-    );
+    )
+    .tolerance("±1,500 ft: the reading of the figure.")
+    .set_up(
+        "True airspeed, 13,000 lb, standard day, 100 ft/min left at normal rated power (1,110 of \
+         1,375 hp of take-off power), which the source says of its service ceiling at 205 kt; \
+         what the rest of the boundary is, and at which weight, it does not say. Ours is the \
+         highest that any of seven ways gives: nacelles at 90 (flaps 40), 75, 60 and 30 deg \
+         (flaps 20) inside the corridor of the report's fig. 14, and as an aeroplane at 589, 517 \
+         and 458 rpm.",
+    )
+    .misses(
+        "At 50 kt, nacelles at 90 deg, ours ends where the blades stall, not by power. (At 0 kt \
+         the figure has 9,600 ft, 2,000 ft over the report's own ceiling of hover at take-off \
+         power, case 6.) At 150 kt ours ends where the wing stalls: 25,000 ft are 100 kt of \
+         equivalent airspeed there, and ours stalls at 105 (case 8). The engines' data end at \
+         20,000 ft (take-off 790 hp for 1,375).",
+    )
+    .settled_by("Weight, power and criterion of each point of the boundary.");
     for (speed_kt, height_ft) in
         [(50.0, 12_000.0), (100.0, 18_700.0), (150.0, 25_000.0), (205.0, 27_300.0)]
     {

@@ -69,12 +69,18 @@ pub fn by_flap(aircraft: &Aircraft, book: &mut Book) {
         Class::A,
         "hover by flap, out of ground effect",
         "NASA CR-176970 Tables 1 and 5: power at the masts and what follows of download.",
-        "Weight, density and rotor speed are those of each setting (13,537 to 13,673 lb, 587 rpm); power ±5 %, as for other hovers, download ±1 % of thrust, what the report's own ways to it spread over. \
-         The aircraft flew with flaps and flaperons as one over the full span. Ours has their \
-         ratio of .625, and flies the flap whose mean deflection by area is the same: .757 of the flap's. \
-         The lowest, 60 deg, would be a flap of 79; ours ends at 75, 57 deg. The wing's drag across the flow \
-         is the tunnel's (Table 4) with flaps up and full down, and CR-166536's between, which agrees with \
-         the tunnel's by the same mean to .02.",
+    )
+    .tolerance(
+        "Power ±5 %, as for other hovers; download ±1 % of thrust, what the report's own ways to \
+         it spread over.",
+    )
+    .set_up(
+        "Weight, density and rotor speed are those of each setting (13,537 to 13,673 lb, 587 \
+         rpm). The aircraft flew with flaps and flaperons as one over the full span. Ours has \
+         their ratio of .625, and flies the flap whose mean deflection by area is the same: .757 \
+         of the flap's. The lowest, 60 deg, would be a flap of 79; ours ends at 75, 57 deg. The \
+         wing's drag across the flow is the tunnel's (Table 4) with flaps up and full down, and \
+         CR-166536's between, which agrees with the tunnel's by the same mean to .02.",
     );
     for hover in &HOVERS {
         let found = hover.ours(aircraft);

@@ -78,13 +78,22 @@ pub fn isolated_rotor(aircraft: &Aircraft, book: &mut Book) {
         Class::A,
         "isolated rotor in hover, tip speed 768 ft/s",
         "OARF run 15, original blades, NASA CR-2017-219486 Table A-2.",
-        "Figure of merit ±.02 is half of what the two test facilities disagree by; power ±3 % is that \
-         of the balance. Each source counts collective from another zero, so only its slope is compared. The \
-         stand has neither wing nor neighbour: what those cost in hover is left out here. The induced factor \
-         is fitted between C_T .004 and .0131, the range that was set beforehand. At .0151 the inner half of the blade stands at 15 to \
-         21 deg, beyond the published section tables, which end at 8 deg (drag) and 12 deg (lift): on the \
-         flat plate that follows them it drags too much. The full section tables would settle it.",
-    );
+    )
+    .tolerance(
+        "Figure of merit ±.02: half of what the two test facilities disagree by. Power ±3 %: the \
+         balance. Each source counts collective from its own zero, so only the slope is compared.",
+    )
+    .set_up(
+        "The rotor alone: no wing and no second rotor, and the losses that those cause in hover \
+         are left out. The induced factor is fitted between C_T .004 and .0131, a range set \
+         beforehand.",
+    )
+    .misses(
+        "At C_T .0151 the inner half of the blade stands at 15 to 21 deg. The published section \
+         tables end at 8 deg (drag) and 12 deg (lift); the flat plate that follows them has too \
+         much drag.",
+    )
+    .settled_by("Section tables beyond 12 deg for the blade's own sections.");
     let tip_mps = 768.0 * FOOT_M;
     let mut stands = Vec::new();
     for (_, c_t, c_p) in OARF {
@@ -118,10 +127,16 @@ pub fn hover(aircraft: &Aircraft, book: &mut Book) {
         "hover, 13,000 lb, flaps 40/25, 589 rpm, out of ground effect",
         "NASA CR-176970 Tables 1, 3 and 5 scaled to the weight (power, download); GTRS, \
          NASA CR-166537 (pitch, stick, thrust).",
-        "The band of power holds the flight test (1465 to 1500 kW) and GTRS (1430 kW) with 10 kW either \
-         way, download what the flight test spread over; pitch and stick what GTRS and flight differ \
-         by. The power is that of the masts: accessories and gears come before it. Of it, 6 % is a correction that is put in: the ratio of the same rotors' power in flight \
-         and on the stand. The model does not predict it.",
+    )
+    .tolerance(
+        "Power: the flight test (1465 to 1500 kW) and GTRS (1430 kW) with 10 kW either way. \
+         Download: what the flight test spread over. Pitch and stick: what GTRS and flight differ \
+         by.",
+    )
+    .set_up(
+        "Power is that of the masts, before accessories and gearboxes. Of it 6 % is a correction \
+         that is put in: the ratio of the same rotors' power in flight and on the stand. The \
+         model does not predict it.",
     );
     let trim = trim(aircraft, &Target::default());
     let of = |f: &dyn Fn(&Trim) -> f64| trim.as_ref().map(f).map_err(ToString::to_string);
@@ -188,10 +203,14 @@ pub fn ceilings(aircraft: &Aircraft, book: &mut Book) {
         Class::A,
         "hover ceilings at take-off power, standard day",
         "NASA TM-81244 fig. 12, fitted lines.",
-        "±800 ft: 200 ft of reading, the rest for what the weight of fuel and the engines' state were. \
-         In ground effect the wheels are taken to be 2 ft over the ground; the source does not say. At \
-         13,000 lb and 8,000 ft a rotor flies at C_T .0133, where ours alone has .7 % less power than the \
-         test (case 1).",
+    )
+    .tolerance(
+        "±800 ft: 200 ft of reading, the rest for the fuel on board and the state of the engines.",
+    )
+    .set_up(
+        "In ground effect the wheels are taken to be 2 ft over the ground; the source does not \
+         say. At 13,000 lb and 8,000 ft a rotor flies at C_T .0133, where the rotor alone needs \
+         .7 % less power than the test (case 1).",
     );
     for (weight_lb, out_ft, in_ft) in [(13_000.0, 7600.0, 11_200.0), (10_000.0, 16_500.0, 18_700.0)]
     {

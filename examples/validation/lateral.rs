@@ -80,14 +80,19 @@ pub fn qualities(aircraft: &Aircraft, book: &mut Book) {
         "hover and cruise as flight describes their modes, SCAS off",
         "NASA TM-89428 and TM-86009, in words: pitch and roll of hover are unstable oscillations of low \
          frequency; cruise is level 2 or better for category A.",
-        "Only that a mode grows is the words' own; what is low (below 1 rad/s) and what level 2 is are taken \
-         from elsewhere, and count as our own. Level 2 of category A is that of \
-         MIL-F-8785C for a class II aircraft: Dutch roll ζ ≥ .02, ζω ≥ .05 1/s, ω ≥ .4 rad/s; roll time \
-         constant ≤ 3.0 s; spiral, if it grows, doubling in no less than 8 s; short period ζ .25 to 2. Cruise is \
-         case 9's, 180 KCAS at 8,000 ft, 458 rpm. Whether the SCAS was on is not said; off is the \
-         harder. The oscillation in roll comes with table 1-II: the rotor downwind stands in the other's \
-         wake, loses thrust, and rolls the aircraft away from where it goes; without it the mode is neutral \
-         (−.005 ± .27j).",
+    )
+    .tolerance(
+        "Only that a mode grows is the words' own. What is low (below 1 rad/s) and what level 2 \
+         is are taken from elsewhere, and count as our own: level 2 of category A is that of \
+         MIL-F-8785C for a class II aircraft: Dutch roll ζ ≥ .02, ζω ≥ .05 1/s, ω ≥ .4 rad/s; \
+         roll time constant ≤ 3.0 s; spiral, if it grows, doubling in no less than 8 s; short \
+         period ζ .25 to 2.",
+    )
+    .set_up(
+        "Cruise is that of case 9: 180 KCAS at 8,000 ft, 458 rpm. Whether the SCAS was on is not \
+         said; off is the harder. The oscillation in roll comes with table 1-II: the rotor \
+         downwind stands in the other's wake, loses thrust, and rolls the aircraft away from \
+         where it goes; without it the mode is neutral (−.005 ± .27j).",
     );
     let hover = flight(aircraft, &Target::default());
     for (label, name) in
@@ -155,18 +160,30 @@ pub fn derivatives(aircraft: &Aircraft, book: &mut Book) {
         "lateral and directional derivatives and modes, SCAS off",
         "Closed form, worked out from published geometry and tables; no flight number is at hand for any \
          of these conditions (p/δa and β/δr of TM-86009 and TM-89428 are not in what could be read).",
-        "Fins: N_r = −ρ·V·S·a·l²·η/2I_zz with a = 3.044/rad (table 6-I), l = 268.8 in, S = 50.5 ft² and η of table \
-         5-V; ±15 %, for the wake in their flow and their distance aside. It is the fins' part: the aircraft's less that of \
-         the same aircraft without fins. Rotor on rotor: L_v = −y/I_xx·∂T/∂w·dX_SF/dμ·v/(ΩR), ∂T/∂w = \
-         ρAΩR·2λ·(aσ/4)/(aσ/4 + 4λ) with a = 5.73/rad; ±30 %, for a blade that is no line.\n\n\
-         Growth: no lateral mode doubles in less than 4 s (.173 1/s), our own requirement for flight \
-         with the SCAS off as a helicopter, 8 s and level 2 beyond. At 40 kt it is missed and was worse: \
-         +.50 1/s while the −.5 of table 6-VIII also turned the fins' yaw damping round. What is left is the \
-         table's own: at 40 kt and small sideslip the fins push the nose away from the wind (N_v below zero), \
-         and the table is printed so. A flight-identified yaw response at 40 kt would settle it. \
-         At 60 kt the Dutch roll grows because the rotors roll it away from the wind (L_v) and the fins, at .2 of their effect, hardly turn it (N_v).\n\n\
-         Aeroplane at 180 KCAS, 8,000 ft: the numbers estimated by hand from the reference's tables leave the rotors \
-         out, which here add to N_r, to roll damping and take from N_β; ±50 %.",
+    )
+    .tolerance(
+        "Fins: N_r = −ρ·V·S·a·l²·η/2I_zz with a = 3.044/rad (table 6-I), l = 268.8 in, S = 50.5 \
+         ft² and η of table 5-V; ±15 %, for the wake in their flow and their distance aside. \
+         Rotor on rotor: L_v = −y/I_xx·∂T/∂w·dX_SF/dμ·v/(ΩR), ∂T/∂w = ρAΩR·2λ·(aσ/4)/(aσ/4 + 4λ) \
+         with a = 5.73/rad; ±30 %, for a blade that is no line. Growth: no lateral mode doubles \
+         in less than 4 s (.173 1/s), our own requirement for flight with the SCAS off as a \
+         helicopter; 8 s and level 2 beyond. Estimates by hand ±50 %.",
+    )
+    .set_up(
+        "N_r of the fins is the aircraft's less that of the same aircraft without fins. As an \
+         aeroplane at 180 KCAS and 8,000 ft the numbers estimated by hand from the reference's \
+         tables leave the rotors out, which here add to N_r and to roll damping and take from \
+         N_β.",
+    )
+    .misses(
+        "At 40 kt the growth is missed, and was worse: +.50 1/s while the −.5 of table 6-VIII \
+         also reversed the fins' yaw damping. What is left is the table's own: at 40 kt and small \
+         sideslip the fins push the nose away from the wind (N_v below zero), and the table is \
+         printed so. At 60 kt the Dutch roll grows because the rotors roll the aircraft away from \
+         the wind (L_v) and the fins, at .2 of their effect, hardly turn it (N_v).",
+    )
+    .settled_by(
+        "A yaw response at 40 kt, identified in flight.",
     );
     fins(&mut case, aircraft);
     rotors(&mut case, aircraft);
@@ -316,9 +333,14 @@ pub fn sideward(aircraft: &Aircraft, book: &mut Book) {
         "sideward flight to 35 kt and rearward flight to 20 kt, hover attitude, flaps 40/25",
         "No published trim. That both can be flown, and with a tenth of every control left, is what a \
          helicopter is asked for.",
-        "Steady, out of ground effect; and flown by the pilot model `sideways` at 10 m, nose where it was. In \
-         sideward flight the rotor downwind stands in the other's wake (table 1-II): lateral stick and power \
-         say how much. Rolled to the side it goes to.",
+    )
+    .tolerance(
+        "Can be flown, with a tenth of every control left. Rolled to the side it goes to.",
+    )
+    .set_up(
+        "Steady, out of ground effect; and flown by the pilot model `sideways` at 10 m, nose \
+         where it was. In sideward flight the rotor downwind stands in the other's wake (table \
+         1-II): lateral stick and power say how much.",
     );
     let speeds_kt = [0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0];
     for (label, sideslip_deg, speeds_kt) in [
@@ -352,8 +374,16 @@ pub fn sideslips(aircraft: &Aircraft, book: &mut Book) {
         "steady sideslip to the right, SCAS off",
         "No published number. That right sideslip takes left pedal and right stick, more of them with more \
          sideslip, and bank to the right, is what level 2 asks for (MIL-F-8785C 3.3.6).",
-        "Pedal and stick of 2 and 10 deg. As a helicopter at 40 kt the fins' factor of table 6-VIII is −.5 at no \
-         sideslip and .8 at 10 deg: at first the pedal goes the wrong way, as the table is printed.",
+    )
+    .tolerance(
+        "Signs, and more control with more sideslip.",
+    )
+    .set_up(
+        "Pedal and stick of 2 and 10 deg.",
+    )
+    .misses(
+        "As a helicopter at 40 kt the fins' factor of table 6-VIII is −.5 at no sideslip and .8 \
+         at 10 deg: at first the pedal goes the wrong way, as the table is printed.",
     );
     for (label, nacelle_deg, speed_kt, flap) in [
         ("helicopter, 40 kt", 90.0, 40.0, 2),
@@ -425,9 +455,14 @@ pub fn engine_out(aircraft: &Aircraft, book: &mut Book) {
         "one engine stopped: roll and yaw",
         "Closed form: the shafts are joined, so that both rotors go on alike; what is left is the jet of one \
          engine on one side, some 85 lbf in hover (CR-176970).",
-        "The jet acts along the mast at the nacelle: upright it rolls, at 0 deg it yaws. Stick or pedal = \
-         F·y/(I·sensitivity); ±25 %, since either control does a little of the other. Controller off: less than 5 deg in 5 s, our own \
-         requirement, with the SCAS on.",
+    )
+    .tolerance(
+        "±25 %, since either control does a little of the other. Controller off: less than 5 deg \
+         in 5 s, our own requirement, with the SCAS on.",
+    )
+    .set_up(
+        "The jet acts along the mast at the nacelle: upright it rolls, at 0 deg it yaws. Stick or \
+         pedal = F·y/(I·sensitivity).",
     );
     for (label, nacelle_deg, speed_kt, flap) in
         [("helicopter, 80 kt", 90.0, 80.0, 2), ("aeroplane, 180 kt", 0.0, 180.0, 0)]

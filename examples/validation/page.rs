@@ -175,12 +175,32 @@ fn summary(book: &Book) -> String {
 }
 
 fn table(case: &Case) -> String {
-    let mut text = format!("\n## Case {}: {}\n{}\n\n", case.number, case.title, case.source);
-    let _ = writeln!(text, "{}\n", case.why);
+    let mut text =
+        format!("\n## Case {}: {}\n- **Source.** {}\n", case.number, case.title, case.source);
+    for (topic, note) in &case.notes {
+        let _ = writeln!(text, "- **{}.** {note}", topic.name());
+    }
+    text.push('\n');
     text += "| number | class | published | ours | difference | tolerance | verdict | prediction | fitted to \
              | checked twice |\n|---|---|---|---|---|---|---|---|---|---|\n";
     for row in &case.rows {
         text += &line(row);
+    }
+    text
+}
+
+/// The measured numbers that are missed, case by case, and what would decide about them.
+fn unsettled(book: &Book) -> String {
+    let mut text = String::from(
+        "\n## Measured numbers that are missed\nOf class A, repeats of a measurement included.\n\n| case | missed | of them predictions | what would settle it |\n|---|---|---|---|\n",
+    );
+    for case in &book.cases {
+        let missed = case.measured_misses().count();
+        let predictions = case.measured_misses().filter(|row| row.is_prediction()).count();
+        if missed > 0 {
+            let settled = case.would_be_settled_by();
+            let _ = writeln!(text, "| {} | {missed} | {predictions} | {settled} |", case.number);
+        }
     }
     text
 }
@@ -213,6 +233,7 @@ pub fn page(book: &Book) -> String {
     page += &summary(book);
     page += "\n![pitch](docs/trim_pitch.svg) ![stick](docs/trim_stick.svg)\n\
              ![power](docs/trim_power.svg) ![hover response](docs/response_hover.svg)\n";
+    page += &unsettled(book);
     for case in &book.cases {
         page += &table(case);
     }
