@@ -125,12 +125,23 @@ impl Rotor {
             }
         }
         let inverse = implicit.try_inverse().unwrap_or_else(|| panic!("a tick without an end"));
+        let rates = (&inverse * &steady.a, &inverse * &steady.b);
+        let (mut c, mut d) = (steady.c.clone(), steady.d.clone());
+        // Of the thrust, what accelerates the blades over the tick.
+        let params = &self.params;
+        let mass_kg = params.blade.count * params.flapping.blade_inertia_kg_m2 / params.radius_m
+            * self.modal.shear;
+        let (thrust, shear) = (Output::Thrust as usize, Output::Shear as usize);
+        for (output, rates) in [(&mut c, &rates.0), (&mut d, &rates.1)] {
+            let row = output.row(thrust) - rates.row(4) * mass_kg;
+            output.set_row(shear, &row);
+        }
         Ticks {
             y: steady.y,
-            map: DMatrix::identity(n, n) + &inverse * &steady.a * STEP_S,
-            by_input: &inverse * &steady.b * STEP_S,
-            c: steady.c.clone(),
-            d: steady.d.clone(),
+            map: DMatrix::identity(n, n) + rates.0 * STEP_S,
+            by_input: rates.1 * STEP_S,
+            c,
+            d,
         }
     }
 

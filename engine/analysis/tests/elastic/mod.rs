@@ -188,6 +188,12 @@ impl Rotor {
         [(b - root) / (2.0 * a), (b + root) / (2.0 * a)]
     }
 
+    /// Begins with blades that are straight lines from a gimbal at rest.
+    pub fn straighten(&mut self) {
+        let coning_rad = self.params.flapping.precone_rad;
+        self.start.flapping = flapping::State { coning_rad, ..flapping::State::default() };
+    }
+
     /// Takes the air away, at another rotor speed.
     pub fn in_vacuum(&mut self, omega_radps: f64) {
         (self.omega_radps, self.flow.omega_radps) = (omega_radps, omega_radps);
