@@ -77,6 +77,7 @@ fn the_engine_flies_the_full_form() {
             assert!(off < 1e-5, "{}: {ours} {engines}", flight.0);
         }
         let (flown, ours) = (rotor.flown(), rotor.in_ticks(&steady));
+        println!("{}: roots {:.1?} 1/s, rad/s", flight.0, flown.roots());
         let pitching_n_m = (flown.output(Output::Pitching), ours.output(Output::Pitching));
         assert!((pitching_n_m.0 - pitching_n_m.1).abs() < 0.1, "{}: {pitching_n_m:?}", flight.0);
         for (input, output) in RESPONSES {
