@@ -16,9 +16,9 @@
 //! displacement over the radius; and z_q, what of the tilt the blades bend.
 //!
 //! One tick is taken by the implicit midpoint rule, the air's damping F = F₀ + D·(Δw − iΩ·Δz) in it, D by both shapes:
-//! of second order, stable at any rotor speed, steady where the motion is. The stop is taken by the implicit Euler rule: it
-//! is met and left within a tick, and what the midpoint rule makes of that grows. Elastic flapping against the rotation turns
-//! fast, 60 Hz seen from the airframe: the rule keeps it, heavily damped by the air, at a slower turn.
+//! of second order, stable at any rotor speed, steady where the motion is. Elastic flapping turns fast seen from the
+//! airframe, 50 and 70 Hz: the rule neither damps nor drives it, and turns it slower. The stop is taken by the implicit Euler
+//! rule: it is met and left within a tick, and what the midpoint rule makes of that grows.
 //! # Signs
 //! Flap up; a1 aft and b1 to the right, as the disc's tilt. Moment of the spring on the airframe: as
 //! the tilt.
