@@ -37,7 +37,8 @@ const POWERS: [f64; 3] = [2.0, 3.0, 4.0];
 impl Params {
     /// Why the blade cannot bend so, if so.
     pub fn fault(&self) -> Option<&'static str> {
-        if !(self.shape_norm.iter().sum::<f64>() > 0.0) {
+        let tip = self.shape_norm.iter().sum::<f64>();
+        if tip.is_nan() || tip <= 0.0 {
             return Some("a shape that is up at the tip");
         }
         let stiff = self.inertias(1.0, 0.0, 1.0).spring_n_m_per_rad > 0.0;
