@@ -92,9 +92,9 @@ impl Rotor {
             let moved = |by: f64| {
                 let (mut x, mut u) = (*x, [0.0; INPUTS]);
                 if by_input {
-                    u[column] += by
+                    u[column] += by;
                 } else {
-                    x[column] += by
+                    x[column] += by;
                 }
                 self.tick(&x, &u)
             };

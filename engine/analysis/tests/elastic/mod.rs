@@ -286,19 +286,7 @@ impl Rotor {
                 }
             }
             let sums = elements(&alone, &self.flow, &pitch, &straight(flap), &induced);
-            all.up_n += sums.up_n;
-            all.forward_n += sums.forward_n;
-            all.right_n += sums.right_n;
-            all.torque_n_m += sums.torque_n_m;
-            for (whole, part) in [(&mut all.straight, 1.0), (&mut all.elastic, part)] {
-                whole.mean_n_m += part * sums.straight.mean_n_m;
-                whole.cos_n_m += part * sums.straight.cos_n_m;
-                whole.sin_n_m += part * sums.straight.sin_n_m;
-            }
-            let lost = sums.damping.straight_n_m_s;
-            all.damping.straight_n_m_s += lost;
-            all.damping.coupled_n_m_s += part * lost;
-            all.damping.elastic_n_m_s += part * part * lost;
+            add(&mut all, &sums, part);
         }
         (all, induced)
     }
@@ -480,6 +468,23 @@ fn flapping_of(x: &[f64]) -> Harmonics {
         right_rad: x[7],
         right_radps: x[8],
     }
+}
+
+/// Adds what the air does at one station, where the elastic shape has moved by that part of a straight line.
+fn add(all: &mut BladeLoads, sums: &BladeLoads, part: f64) {
+    all.up_n += sums.up_n;
+    all.forward_n += sums.forward_n;
+    all.right_n += sums.right_n;
+    all.torque_n_m += sums.torque_n_m;
+    for (whole, weight) in [(&mut all.straight, 1.0), (&mut all.elastic, part)] {
+        whole.mean_n_m += weight * sums.straight.mean_n_m;
+        whole.cos_n_m += weight * sums.straight.cos_n_m;
+        whole.sin_n_m += weight * sums.straight.sin_n_m;
+    }
+    let lost = sums.damping.straight_n_m_s;
+    all.damping.straight_n_m_s += lost;
+    all.damping.coupled_n_m_s += part * lost;
+    all.damping.elastic_n_m_s += part * part * lost;
 }
 
 /// A blade that is a straight line.
