@@ -46,7 +46,8 @@ fn an_unknown_key() {
         "radius_ft",
         &format!("chrod_in = {{ value = 14.0, {SOURCED}"),
         "rotors.chrod_in: unknown key; expected one of radius_m, solidity, polar_inertia_kg_m2, \
-         pivot_m, mast_length_m, mast_cant_rad, blade, inflow, flapping, other_rotor \
+         pivot_m, mast_length_m, mast_cant_rad, blade, inflow, flapping, bending, \
+         other_rotor \
          (or the same in another unit)",
     );
 }

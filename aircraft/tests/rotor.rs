@@ -244,3 +244,47 @@ fn no_flight_makes_the_rotor_infinite() {
         }
     }
 }
+
+/// From rest to 110 % in half a minute, the cyclic stirring the disc onto its stop at every speed; then at rest.
+#[test]
+fn a_run_up_on_the_gimbal_stop_stays_whole_and_comes_to_rest() {
+    let params = xv15();
+    let blade = params.blade();
+    let full_radps = hovering(589.0, 0.0).rotor_speed_radps;
+    let mut state = State::default();
+    let (mut on_stop, mut most_bent_rad, mut most_rad) = (0_u64, 0.0_f64, 0.0_f64);
+    let ticks = 7_500;
+    for tick in 0..ticks {
+        let part = f64::from(tick) / f64::from(ticks);
+        let mut inputs = hovering(589.0, (2.0 + 10.0 * part) * DEG);
+        inputs.rotor_speed_radps = 1.1 * part * full_radps;
+        inputs.motion.airspeed_mps.x = 15.0;
+        // Once a second round: 15 degrees of cyclic, which no swash plate has.
+        let turn = 2.0 * PI * f64::from(tick) * engine::STEP_S;
+        inputs.cyclic_forward_rad = 15.0 * DEG * sin(turn);
+        inputs.cyclic_outboard_rad = 15.0 * DEG * cos(turn);
+        let (next, out) = rotors::evaluate(&params, &blade, &state, &inputs);
+        state = next;
+        on_stop += out.on_stop;
+        let flap = &state.flapping;
+        most_bent_rad = most_bent_rad.max(flap.elastic_aft_rad.hypot(flap.elastic_right_rad));
+        most_rad = most_rad.max(flap.aft_rad.hypot(flap.right_rad));
+        assert!(out.load.force_n.norm() < 2e5 && out.load.moment_n_m.norm() < 2e6, "tick {tick}");
+    }
+    println!(
+        "{on_stop} of {ticks} ticks on the stop; blades bent {:.2} deg, tip path {:.2} deg at most",
+        most_bent_rad / DEG,
+        most_rad / DEG
+    );
+    assert!(on_stop > 100 && most_bent_rad < 3.0 * DEG && most_rad < 16.0 * DEG);
+    let mut inputs = hovering(589.0, 8.0 * DEG);
+    inputs.rotor_speed_radps = 1.1 * full_radps;
+    for _ in 0..10_000 {
+        state = rotors::evaluate(&params, &blade, &state, &inputs).0;
+    }
+    let next = rotors::evaluate(&params, &blade, &state, &inputs).0;
+    let moved = (next.flapping.elastic_aft_rad - state.flapping.elastic_aft_rad).abs()
+        + (next.flapping.aft_rad - state.flapping.aft_rad).abs()
+        + (next.flapping.coning_rad - state.flapping.coning_rad).abs();
+    assert!(moved < 1e-12, "{moved}");
+}

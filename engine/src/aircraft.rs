@@ -117,6 +117,7 @@ impl Params {
             ("fcc.mixer.lateral_cyclic_rad", mixer.lateral_cyclic_rad.fault()),
             ("fcc.mixer.lateral_cyclic_norm", mixer.lateral_cyclic_norm.fault()),
             ("rotors.blade", self.rotors.blade.fault()),
+            ("rotors.bending", self.rotors.bending.fault()),
             ("rotors.inflow.download_near_ground", self.rotors.inflow.download_near_ground.fault()),
             ("fcc.governor.proportional", self.fcc.governor.proportional_rad_per_radps.fault()),
             ("fcc.governor.integral", self.fcc.governor.integral_rad_per_rad.fault()),

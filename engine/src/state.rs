@@ -202,6 +202,7 @@ numbers! {
     rotors::inflow::State { mean_mps, aft_mps, right_mps }
     rotors::flapping::State {
         coning_rad, coning_radps, aft_rad, aft_radps, right_rad, right_radps,
+        elastic_aft_rad, elastic_aft_radps, elastic_right_rad, elastic_right_radps,
     }
     horizontal_stabilizer::State { downwash_rad }
     engines::State { power_w }

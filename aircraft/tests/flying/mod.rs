@@ -222,7 +222,7 @@ pub fn in_vacuum(xv15: &mut Params) {
     xv15.rotors.blade.blade_chord_m.y.fill(0.0);
     xv15.rotors.flapping.hub_spring_n_m_per_rad = 0.0;
     // Blades that flap without air would trade energy with the body: they get next to no mass.
-    xv15.rotors.flapping.blade_spring_n_m_per_rad *= 1e-6;
+    xv15.rotors.flapping.stop_spring_n_m_per_rad *= 1e-6;
     xv15.rotors.flapping.blade_inertia_kg_m2 *= 1e-6;
     xv15.rotors.polar_inertia_kg_m2 *= 1e-6;
     xv15.wing_pylon.area_m2 = 0.0;

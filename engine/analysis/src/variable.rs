@@ -68,6 +68,14 @@ fields! {
         RightFlapping: flapping.right_rad,
         /// Rate of b1.
         RightFlappingRate: flapping.right_radps,
+        /// Of a1, what the blades bend.
+        AftBending: flapping.elastic_aft_rad,
+        /// Its rate.
+        AftBendingRate: flapping.elastic_aft_radps,
+        /// Of b1, what the blades bend.
+        RightBending: flapping.elastic_right_rad,
+        /// Its rate.
+        RightBendingRate: flapping.elastic_right_radps,
     }
 }
 
@@ -154,6 +162,10 @@ const _: fn(&Plant) = |plant| {
         aft_radps: _,
         right_rad: _,
         right_radps: _,
+        elastic_aft_rad: _,
+        elastic_aft_radps: _,
+        elastic_right_rad: _,
+        elastic_right_radps: _,
     } = flapping;
     let horizontal_stabilizer::State { downwash_rad: _ } = horizontal_stabilizer;
     let engines::State { power_w: _ } = &engines.right;

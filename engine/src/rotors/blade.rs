@@ -7,10 +7,11 @@
 //! ∫ f dr = Σ f(r_i)·w_i        3, 2, 2 and 1 stations from the root cut-out to the tip
 //! ```
 //! # Assumptions
-//! The blade is straight; its twist is the geometric one.
+//! The blade is straight until it bends; its twist is the geometric one.
 
 use serde::Deserialize;
 
+use super::bending::{self, Inertias};
 use super::section::{self, REGIONS, Region};
 use crate::lanes::{self, LANES, Lanes};
 use crate::math::{sin_cos, tan};
@@ -86,6 +87,10 @@ pub struct Station {
     pub sin_twist: f64,
     /// Cosine of the twist.
     pub cos_twist: f64,
+    /// R·φ: how far it moves up when the tip bends up by one radius.
+    pub displacement_m: f64,
+    /// Slope that it has then.
+    pub slope_norm: f64,
 }
 
 /// Neighbouring elements, each in its lane: what the inflow needs of them.
@@ -136,12 +141,20 @@ pub struct Blade {
     pub regions: [Region; REGIONS],
     /// tan δ3.
     pub tan_delta3: f64,
+    /// How heavy it is as it flaps.
+    pub inertias: Inertias,
     /// The elements in lanes, from the root.
     pub(crate) groups: [Group; STATIONS / LANES],
 }
 
-/// The blade of a rotor of that radius, hinged under that angle.
-pub fn blade(params: &Params, radius_m: f64, delta3_rad: f64) -> Blade {
+/// The blade of a rotor of that radius, hinged under that angle, bending so, with those inertias.
+pub fn blade(
+    params: &Params,
+    radius_m: f64,
+    delta3_rad: f64,
+    bending: &bending::Params,
+    inertias: Inertias,
+) -> Blade {
     let ends = &params.section.lift_coefficient.x;
     let stations = NODES.map(|(region, at, weight)| {
         let inner = if region > 0 { ends[region - 1] } else { params.root_norm };
@@ -162,9 +175,11 @@ pub fn blade(params: &Params, radius_m: f64, delta3_rad: f64) -> Blade {
             disc_norm: 2.0 * x * weight_norm,
             sin_twist,
             cos_twist,
+            displacement_m: bending.displacement(x) * radius_m,
+            slope_norm: bending.slope(x),
         }
     });
     let regions = params.section.regions(params.root_norm);
     let groups = core::array::from_fn(|group| Group::new(&stations[group * LANES..], &regions));
-    Blade { stations, regions, tan_delta3: tan(delta3_rad), groups }
+    Blade { stations, regions, tan_delta3: tan(delta3_rad), inertias, groups }
 }

@@ -4,12 +4,13 @@
 //! ```text
 //! elements:  forces and flapping moments from pitch, flap, inflow and the hub's motion
 //! inflow:    v̇ from thrust and flapping moments              three states         [PETERS]
-//! flapping:  β̈ from flapping moments, springs and gyration   gimbal and coning    [JOHNSON]
+//! flapping:  β̈ from flapping moments, springs and gyration   gimbal and bending   [JOHNSON]
 //! neighbour: the other rotor's wake adds to the flow along the mast                 [CR536]
 //! ```
-//! Each in its file: [`section`], [`blade`], [`elements`], [`inflow`], [`flapping`], [`other_rotor`]. The
+//! Each in its file: [`section`], [`blade`], [`elements`], [`inflow`], [`flapping`], [`bending`], [`other_rotor`]. The
 //! elements are evaluated once a tick; inflow and flapping take the tick implicitly, because the flapping's fast
-//! root (2Ω, 123 rad/s) is too fast for the rates of the plant. So the block gives its next state.
+//! roots (2Ω, 123 rad/s, and the elastic ones) are too fast for the rates of the plant. So the block gives its next
+//! state.
 //! ```text
 //! F = (Σ in the hub plane, −T + S)     M = K·tilt by gimbal and stop, Q about the mast
 //! ```
@@ -21,6 +22,7 @@
 //! Steady between ticks; rigid in lag and torsion; the in-plane inertia of flapping blades averages out. A
 //! gimballed rotor does not pass its gyroscopic moment on: it precesses until the air turns it.
 
+pub mod bending;
 pub mod blade;
 pub mod elements;
 pub mod flapping;
@@ -29,6 +31,7 @@ pub mod other_rotor;
 pub mod section;
 #[cfg(test)]
 mod tests;
+mod tilt;
 
 use serde::{Deserialize, Serialize};
 
@@ -59,6 +62,8 @@ pub struct Params {
     pub inflow: inflow::Params,
     /// Hub and flapping.
     pub flapping: flapping::Params,
+    /// How blades bend.
+    pub bending: bending::Params,
     /// What the other rotor's wake does.
     pub other_rotor: other_rotor::Params,
 }
@@ -70,9 +75,14 @@ impl Params {
         0.5 * max(0.0, self.polar_inertia_kg_m2 - blades_kg_m2)
     }
 
-    /// The blade's elements.
+    /// The blade's elements and inertias.
     pub fn blade(&self) -> blade::Blade {
-        blade::blade(&self.blade, self.radius_m, self.flapping.delta3_rad)
+        // Of the hub's tilt each blade has its share, as of the moments: multiblade sums over b blades are b/2.
+        let hub_share_kg_m2 = self.hub_inertia_kg_m2() / 1.5;
+        let blade_kg_m2 = self.flapping.blade_inertia_kg_m2;
+        let inertias = self.bending.inertias(blade_kg_m2, hub_share_kg_m2, self.radius_m);
+        let delta3_rad = self.flapping.delta3_rad;
+        blade::blade(&self.blade, self.radius_m, delta3_rad, &self.bending, inertias)
     }
 
     /// A.
@@ -96,7 +106,7 @@ impl Params {
 pub struct State {
     /// Air it moves.
     pub inflow: inflow::State,
-    /// Tilt and coning.
+    /// Tilt, coning, bending.
     pub flapping: flapping::State,
 }
 
@@ -145,9 +155,9 @@ pub struct Outputs {
     pub blade_loading: f64,
     /// μ.
     pub advance_ratio: f64,
-    /// β0.
+    /// β0: how far the tips are out of the hub plane, around the turn, over the radius.
     pub coning_rad: f64,
-    /// a1, tip path tilted aft of the hub plane.
+    /// a1, tip path tilted aft of the hub plane: the first harmonic of that.
     pub tilt_aft_rad: f64,
     /// b1, tip path tilted right (outboard).
     pub tilt_outboard_rad: f64,
@@ -231,10 +241,12 @@ pub fn evaluate(
         (sin_cos(inputs.collective_rad), params.blade.count),
         (ground.disc, params.radius_m),
     );
-    let blade_loads = elements::elements(blade, &flow, &pitch, flap, &induced);
+    let curve = flap.curve(params.flapping.precone_rad);
+    let blade_loads = elements::elements(blade, &flow, &pitch, &curve, &induced);
 
-    let next = advance(params, state, &hub, &flow, &through, &gimbal, &blade_loads);
-    let swinging_n = flapping::swinging_n(&params.flapping, flap, &next.flapping, params.radius_m);
+    let inertias = &blade.inertias;
+    let next = advance((params, inertias), state, &hub, &flow, &through, &gimbal, &blade_loads);
+    let swinging_n = flapping::swinging_n(inertias, flap, &next.flapping);
     let wake = Wake {
         induced_mps: ground.wake * (state.inflow.mean_mps + of_other * inputs.other_induced_mps),
         in_vortex_ring: through.in_vortex_ring,
@@ -249,7 +261,7 @@ struct Wake {
 }
 
 fn advance(
-    params: &Params,
+    (params, inertias): (&Params, &bending::Inertias),
     state: &State,
     hub: &Hub,
     flow: &elements::Flow,
@@ -260,22 +272,20 @@ fn advance(
     let blades = params.blade.count;
     let disc_loads = inflow::DiscLoads {
         thrust_n: blades * blade_loads.up_n,
-        aft_n_m: 0.5 * blades * blade_loads.flap_cos_n_m,
-        right_n_m: 0.5 * blades * blade_loads.flap_sin_n_m,
+        aft_n_m: 0.5 * blades * blade_loads.straight.cos_n_m,
+        right_n_m: 0.5 * blades * blade_loads.straight.sin_n_m,
     };
     let flapping = flapping::Inputs {
         omega_radps: flow.omega_radps,
         hub_pitch_radps: hub.rate_radps.y,
         hub_roll_radps: hub.rate_radps.x,
-        flap_n_m: blade_loads.flap_n_m,
-        flap_cos_n_m: blade_loads.flap_cos_n_m,
-        flap_sin_n_m: blade_loads.flap_sin_n_m,
-        damping_n_m_s: blade_loads.damping_n_m_s,
-        hub_inertia_kg_m2: params.hub_inertia_kg_m2(),
+        straight: blade_loads.straight,
+        elastic: blade_loads.elastic,
+        damping: blade_loads.damping,
     };
     State {
         inflow: inflow::advance(&state.inflow, through, flow, &disc_loads, params.radius_m),
-        flapping: flapping::advance(&params.flapping, &state.flapping, gimbal, &flapping),
+        flapping: flapping::advance(&params.flapping, inertias, &state.flapping, gimbal, &flapping),
     }
 }
 

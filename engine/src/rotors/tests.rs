@@ -49,11 +49,16 @@ fn ideal() -> Params {
         },
         flapping: flapping::Params {
             blade_inertia_kg_m2: 139.0,
-            blade_spring_n_m_per_rad: 773e3,
             precone_rad: 0.0,
             hub_spring_n_m_per_rad: 0.0,
             flapping_rad_max: 0.2,
+            stop_spring_n_m_per_rad: 4e6,
             delta3_rad: 0.0,
+        },
+        bending: bending::Params {
+            frequency_radps: 88.7,
+            reference_radps: 47.96,
+            shape_norm: [6.0, -4.0, 1.0],
         },
         other_rotor: other_rotor::Params {
             downwind: Table1 { x: vec![0.0, 0.1, 0.2], y: vec![0.0, 0.8, 0.4] },

@@ -1,21 +1,27 @@
-//! One rotor in steady flight, in both forms: its equations, where they stand still, and how they answer.
+//! One rotor in steady flight, in two forms written here once more: their equations, where they stand still, and how they
+//! answer. [`engine_rotor`] has the answer of the rotor that flies.
+
+mod engine_rotor;
+pub use engine_rotor::Ticks;
 
 use analysis::trim::Trim;
 use engine::Aircraft;
 use engine::STEP_S;
 use engine::frames::{Body, Vec3};
-use engine::math::{sqrt, square};
+use engine::math::{max, sqrt, square};
+use engine::motion::Motion;
 use engine::rotors::blade::{Blade, STATIONS};
 use engine::rotors::elements::{BladeLoads, Flow, Induced, Pitch, elements};
+use engine::rotors::flapping::{Curve, Damping, Harmonics};
 use engine::rotors::{self, Params, flapping, inflow, other_rotor};
 use nalgebra::{DMatrix, DVector};
 
 /// Which equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// The engine's: gimbal and blades as springs in series, the blade a straight line.
+    /// The cheaper one: gimbal and blades as springs in series, the blade a straight line.
     InSeries,
-    /// Gimbal with the hub's inertia, elastic blades with states of their own.
+    /// The one that flies: gimbal with the hub's inertia, elastic blades with states of their own.
     Elastic,
 }
 
@@ -46,6 +52,9 @@ const INPUTS: usize = Input::PitchRate as usize + 1;
 /// First elastic frequency, per rev, at this rotor speed, rad/s.
 const ELASTIC: (f64, f64) = (1.85, 458.0 * std::f64::consts::PI / 30.0);
 
+/// K_b of the form in series, N m/rad: that frequency with the blade as a straight line.
+const BLADE_SPRING: f64 = 773e3;
+
 /// φ/R and its slope by x = r/R: a cantilever under an even load, 1 at the tip.
 fn shape(x: f64) -> (f64, f64) {
     (
@@ -71,11 +80,13 @@ impl Modal {
             let x = (f64::from(i) + 0.5) / f64::from(steps);
             let mass = 3.0 / f64::from(steps);
             let (phi, slope) = shape(x);
-            slope2 += slope * slope / f64::from(steps);
+            let half = 0.5 * slope * slope / f64::from(steps);
+            slope2 += half;
             modal.gimbal += mass * x * phi;
             modal.own += mass * phi * phi;
             modal.stiffened += mass * x * slope2;
             modal.shear += mass * phi;
+            slope2 += half;
         }
         modal
     }
@@ -91,6 +102,8 @@ pub struct Rotor {
     collective_rad: f64,
     cyclic_rad: [f64; 2],
     start: rotors::State,
+    /// As the engine's rotor is asked.
+    inputs: rotors::Inputs,
     /// What the engine says of it.
     pub engine: rotors::Outputs,
 }
@@ -116,8 +129,27 @@ impl Rotor {
         };
         let of_other =
             other_rotor::factor(&params.other_rotor, &flow, 2.0 * hub.y, params.radius_m);
-        flow.along_mps += of_other * plant.rotors.left.inflow.mean_mps;
+        let other_induced_mps = plant.rotors.left.inflow.mean_mps;
+        flow.along_mps += of_other * other_induced_mps;
+        let inputs = rotors::Inputs {
+            motion: Motion {
+                cg_m: found.outputs.balance.cg_m,
+                airspeed_mps: velocity,
+                angular_rate_radps: Vec3::zero(),
+                density_kg_per_m3: flow.density_kg_per_m3,
+            },
+            sound_speed_mps: flow.sound_speed_mps,
+            mast_tilt_rad: surfaces.mast_tilt_rad.right,
+            mast_tilt_rate_radps: 0.0,
+            rotor_speed_radps: plant.rotor_speed_radps,
+            collective_rad: surfaces.collective_rad.right,
+            cyclic_forward_rad: surfaces.cyclic_forward_rad.right,
+            cyclic_outboard_rad: surfaces.cyclic_outboard_rad.right,
+            hub_height_m: 1e9,
+            other_induced_mps,
+        };
         Self {
+            inputs,
             params: params.clone(),
             blade: params.blade(),
             modal: Modal::new(),
@@ -142,6 +174,34 @@ impl Rotor {
         sqrt(stiffness / self.modal.own)
     }
 
+    /// λ of S·v = λ·M·v for the tilt, rad²/s².
+    pub fn cyclic_per_s2(&self) -> [f64; 2] {
+        let params = &self.params.flapping;
+        let (m, omega2) = (&self.modal, square(self.omega_radps));
+        let hub = self.params.hub_inertia_kg_m2() / 1.5 / params.blade_inertia_kg_m2;
+        let spring = params.hub_spring_n_m_per_rad / 1.5 / params.blade_inertia_kg_m2;
+        let elastic = self.bending_per_s2() + omega2 * (m.stiffened - m.own);
+        // (S_γ − λ·M_γγ)·(S_q − λ·M_qq) = λ²·M_γq²
+        let a = (1.0 + hub) * m.own - square(m.gimbal);
+        let b = spring * m.own + elastic * (1.0 + hub);
+        let root = sqrt(square(b) - 4.0 * a * spring * elastic);
+        [(b - root) / (2.0 * a), (b + root) / (2.0 * a)]
+    }
+
+    /// Begins with blades that are straight lines from a gimbal at rest.
+    pub fn straighten(&mut self) {
+        let coning_rad = self.params.flapping.precone_rad;
+        self.start.flapping = flapping::State { coning_rad, ..flapping::State::default() };
+    }
+
+    /// Takes the air away, at another rotor speed.
+    pub fn in_vacuum(&mut self, omega_radps: f64) {
+        (self.omega_radps, self.flow.omega_radps) = (omega_radps, omega_radps);
+        self.inputs.rotor_speed_radps = omega_radps;
+        self.flow.density_kg_per_m3 = 1e-9;
+        self.inputs.motion.density_kg_per_m3 = 1e-9;
+    }
+
     fn size(form: Form) -> usize {
         match form {
             Form::InSeries => 9,
@@ -157,16 +217,16 @@ impl Rotor {
             x.extend([f.coning_rad, f.coning_radps]);
             x.extend([f.aft_rad, f.aft_radps, f.right_rad, f.right_radps]);
         } else {
-            let gimbal = flapping::gimbal(&self.params.flapping, f);
             x.extend([f.coning_rad - self.params.flapping.precone_rad, 0.0]);
-            x.extend([gimbal.aft_rad, 0.0, gimbal.right_rad, 0.0]);
-            x.extend([f.aft_rad - gimbal.aft_rad, 0.0, f.right_rad - gimbal.right_rad, 0.0]);
+            let (aft_rad, right_rad) = (f.elastic_aft_rad, f.elastic_right_rad);
+            x.extend([f.aft_rad - aft_rad, 0.0, f.right_rad - right_rad, 0.0]);
+            x.extend([aft_rad, 0.0, right_rad, 0.0]);
         }
         x
     }
 
     /// What the air does to the blades: all sums, and F_q as mean, cosine and sine.
-    fn air(&self, form: Form, x: &[f64], u: &[f64; INPUTS]) -> (BladeLoads, [f64; 3], Induced) {
+    fn air(&self, form: Form, x: &[f64], u: &[f64; INPUTS]) -> (BladeLoads, Induced) {
         let precone_rad = self.params.flapping.precone_rad;
         let tan_delta3 = self.blade.tan_delta3;
         let state = inflow::State { mean_mps: x[0], aft_mps: x[1], right_mps: x[2] };
@@ -184,8 +244,8 @@ impl Rotor {
         );
         let gimbal = match form {
             Form::InSeries => {
-                let gimbal = flapping::gimbal(&self.params.flapping, &flapping_of(x));
-                [gimbal.aft_rad, gimbal.right_rad]
+                let share = self.in_series_share();
+                [share * x[5], share * x[7]]
             }
             Form::Elastic => [x[5], x[7]],
         };
@@ -196,10 +256,11 @@ impl Rotor {
             right_rad: self.cyclic_rad[1] - tan_delta3 * gimbal[0],
         };
         if form == Form::InSeries {
-            let sums = elements(&self.blade, &self.flow, &pitch, &flapping_of(x), &induced);
-            return (sums, [0.0; 3], induced);
+            let sums =
+                elements(&self.blade, &self.flow, &pitch, &straight(flapping_of(x)), &induced);
+            return (sums, induced);
         }
-        let (mut all, mut modal) = (BladeLoads::default(), [0.0; 3]);
+        let mut all = BladeLoads::default();
         for i in 0..STATIONS {
             let norm = self.blade.stations[i].radius_m / self.params.radius_m;
             let (phi, slope) = shape(norm);
@@ -210,9 +271,9 @@ impl Rotor {
             let (aft, right) = (place(5, 9), place(7, 11));
             let (aft_slope, right_slope) = (leans(5, 9), leans(7, 11));
             // Slopes tilt the forces; what the air meets are the velocities of the place itself.
-            let flap = flapping::State {
-                coning_rad: precone_rad + slope * x[3],
-                coning_radps: part * x[4],
+            let flap = Harmonics {
+                mean_rad: precone_rad + slope * x[3],
+                mean_radps: part * x[4],
                 aft_rad: aft_slope,
                 aft_radps: place(6, 10) + omega * (right - right_slope),
                 right_rad: right_slope,
@@ -224,30 +285,27 @@ impl Rotor {
                     station.area_m2 = 0.0;
                 }
             }
-            let sums = elements(&alone, &self.flow, &pitch, &flap, &induced);
-            all.up_n += sums.up_n;
-            all.forward_n += sums.forward_n;
-            all.right_n += sums.right_n;
-            all.torque_n_m += sums.torque_n_m;
-            all.flap_n_m += sums.flap_n_m;
-            all.flap_cos_n_m += sums.flap_cos_n_m;
-            all.flap_sin_n_m += sums.flap_sin_n_m;
-            modal[0] += part * sums.flap_n_m;
-            modal[1] += part * sums.flap_cos_n_m;
-            modal[2] += part * sums.flap_sin_n_m;
+            let sums = elements(&alone, &self.flow, &pitch, &straight(flap), &induced);
+            add(&mut all, &sums, part);
         }
-        (all, modal, induced)
+        (all, induced)
+    }
+
+    /// What of the tilt is the gimbal's when blades and gimbal are springs in series.
+    fn in_series_share(&self) -> f64 {
+        let blades = 1.5 * BLADE_SPRING;
+        blades / (blades + self.params.flapping.hub_spring_n_m_per_rad)
     }
 
     /// ẋ and y.
     fn equations(&self, form: Form, x: &[f64], u: &[f64; INPUTS]) -> (Vec<f64>, [f64; OUTPUTS]) {
-        let (sums, modal, _) = self.air(form, x, u);
+        let (sums, _) = self.air(form, x, u);
         let blades = self.params.blade.count;
         let state = inflow::State { mean_mps: x[0], aft_mps: x[1], right_mps: x[2] };
         let forcing = inflow::DiscLoads {
             thrust_n: blades * sums.up_n,
-            aft_n_m: 0.5 * blades * sums.flap_cos_n_m,
-            right_n_m: 0.5 * blades * sums.flap_sin_n_m,
+            aft_n_m: 0.5 * blades * sums.straight.cos_n_m,
+            right_n_m: 0.5 * blades * sums.straight.sin_n_m,
         };
         let passage = inflow::disc_flow(&state, &self.flow);
         let radius_m = self.params.radius_m;
@@ -265,7 +323,7 @@ impl Rotor {
         if form == Form::InSeries {
             self.in_series(x, hub_pitch_radps, &sums, &mut rate, &mut y);
         } else {
-            self.elastic(x, hub_pitch_radps, &sums, modal, &mut rate, &mut y);
+            self.elastic(x, hub_pitch_radps, &sums, &mut rate, &mut y);
         }
         (rate, y)
     }
@@ -281,24 +339,24 @@ impl Rotor {
         let params = &self.params.flapping;
         let (blade, omega) = (params.blade_inertia_kg_m2, self.omega_radps);
         let per = 1.0 / blade;
-        let flap = flapping_of(x);
-        let gimbal = flapping::gimbal(params, &flap);
-        let bending = per * params.blade_spring_n_m_per_rad;
-        let coning =
-            bending * (params.precone_rad - x[3]) - square(omega) * x[3] + per * sums.flap_n_m;
+        let moment_n_m_per_rad = self.in_series_share() * params.hub_spring_n_m_per_rad;
+        let (pitching_n_m, rolling_n_m) = (moment_n_m_per_rad * x[5], moment_n_m_per_rad * x[7]);
+        let bending = per * BLADE_SPRING;
+        let coning = bending * (params.precone_rad - x[3]) - square(omega) * x[3]
+            + per * sums.straight.mean_n_m;
         rate.extend([x[4], coning]);
         let per = 1.0 / (blade + self.params.hub_inertia_kg_m2() / 1.5);
         let spring = per / 1.5;
         rate.extend([
             x[6] - pitch_radps,
-            -2.0 * omega * x[8] - spring * gimbal.pitching_n_m - per * sums.flap_cos_n_m,
+            -2.0 * omega * x[8] - spring * pitching_n_m - per * sums.straight.cos_n_m,
             x[8],
-            2.0 * omega * x[6] - spring * gimbal.rolling_n_m - per * sums.flap_sin_n_m,
+            2.0 * omega * x[6] - spring * rolling_n_m - per * sums.straight.sin_n_m,
         ]);
         y[Output::TiltAft as usize] = x[5];
         y[Output::TiltOutboard as usize] = x[7];
         y[Output::Coning as usize] = x[3];
-        y[Output::Pitching as usize] = gimbal.pitching_n_m;
+        y[Output::Pitching as usize] = pitching_n_m;
         let swung_n = self.params.blade.count * 1.5 * blade / self.params.radius_m * coning;
         y[Output::Shear as usize] = y[Output::Thrust as usize] - swung_n;
     }
@@ -308,7 +366,6 @@ impl Rotor {
         x: &[f64],
         pitch_radps: f64,
         sums: &BladeLoads,
-        modal: [f64; 3],
         rate: &mut Vec<f64>,
         y: &mut [f64; OUTPUTS],
     ) {
@@ -320,9 +377,10 @@ impl Rotor {
         let bending = inertia * self.bending_per_s2();
         let stiffened = inertia * of.stiffened * square(omega);
 
-        let coning =
-            (modal[0] - (bending + stiffened) * x[3] - square(omega) * m_gq * params.precone_rad)
-                / m_qq;
+        let coning = (sums.elastic.mean_n_m
+            - (bending + stiffened) * x[3]
+            - square(omega) * m_gq * params.precone_rad)
+            / m_qq;
         rate.extend([x[4], coning]);
         // M·(ẇ − 2iΩw) = −S·z − F, in a and in b.
         let spring = params.hub_spring_n_m_per_rad / 1.5;
@@ -334,9 +392,10 @@ impl Rotor {
                 (m_gg * bent - m_gq * gimbal) / determinant,
             )
         };
-        let (aft, aft_bent) = solve(-spring * x[5] - sums.flap_cos_n_m, -elastic * x[9] - modal[1]);
+        let (aft, aft_bent) =
+            solve(-spring * x[5] - sums.straight.cos_n_m, -elastic * x[9] - sums.elastic.cos_n_m);
         let (right, right_bent) =
-            solve(-spring * x[7] - sums.flap_sin_n_m, -elastic * x[11] - modal[2]);
+            solve(-spring * x[7] - sums.straight.sin_n_m, -elastic * x[11] - sums.elastic.sin_n_m);
         rate.extend([x[6] - pitch_radps, aft - 2.0 * omega * x[8]]);
         rate.extend([x[8], right + 2.0 * omega * x[6]]);
         rate.extend([x[10], aft_bent - 2.0 * omega * x[12]]);
@@ -392,17 +451,18 @@ impl Rotor {
             }
         }
         let (rate, y) = self.equations(form, &x, &[0.0; INPUTS]);
-        let off = rate.iter().fold(0.0_f64, |most, rate| engine::math::max(most, rate.abs()));
+        let off = rate.iter().fold(0.0_f64, |most, rate| max(most, rate.abs()));
         assert!(off < 1e-6, "the rotor does not stand still: {off}");
         let ((a, c), (b, d)) = (self.slopes(form, &x, false), self.slopes(form, &x, true));
-        Steady { y, a, b, c, d }
+        let damping = self.air(form, &x, &[0.0; INPUTS]).0.damping;
+        Steady { y, damping, a, b, c, d }
     }
 }
 
-fn flapping_of(x: &[f64]) -> flapping::State {
-    flapping::State {
-        coning_rad: x[3],
-        coning_radps: x[4],
+fn flapping_of(x: &[f64]) -> Harmonics {
+    Harmonics {
+        mean_rad: x[3],
+        mean_radps: x[4],
         aft_rad: x[5],
         aft_radps: x[6],
         right_rad: x[7],
@@ -410,9 +470,33 @@ fn flapping_of(x: &[f64]) -> flapping::State {
     }
 }
 
+/// Adds what the air does at one station, where the elastic shape has moved by that part of a straight line.
+fn add(all: &mut BladeLoads, sums: &BladeLoads, part: f64) {
+    all.up_n += sums.up_n;
+    all.forward_n += sums.forward_n;
+    all.right_n += sums.right_n;
+    all.torque_n_m += sums.torque_n_m;
+    for (whole, weight) in [(&mut all.straight, 1.0), (&mut all.elastic, part)] {
+        whole.mean_n_m += weight * sums.straight.mean_n_m;
+        whole.cos_n_m += weight * sums.straight.cos_n_m;
+        whole.sin_n_m += weight * sums.straight.sin_n_m;
+    }
+    let lost = sums.damping.straight_n_m_s;
+    all.damping.straight_n_m_s += lost;
+    all.damping.coupled_n_m_s += part * lost;
+    all.damping.elastic_n_m_s += part * part * lost;
+}
+
+/// A blade that is a straight line.
+fn straight(flap: Harmonics) -> Curve {
+    Curve { straight: flap, elastic: Harmonics::default() }
+}
+
 /// A steady rotor and its answers to small inputs.
 pub struct Steady {
     y: [f64; OUTPUTS],
+    /// D, of the full form.
+    damping: Damping,
     a: DMatrix<f64>,
     b: DMatrix<f64>,
     c: DMatrix<f64>,
@@ -427,21 +511,35 @@ impl Steady {
 
     /// C·(iω − A)⁻¹·B + D, real and imaginary part.
     pub fn response(&self, input: Input, output: Output, omega_radps: f64) -> (f64, f64) {
-        let n = self.a.nrows();
-        // (iω − A)·(x + iy) = b in real numbers.
-        let mut system = DMatrix::zeros(2 * n, 2 * n);
-        system.view_mut((0, 0), (n, n)).copy_from(&-&self.a);
-        system.view_mut((n, n), (n, n)).copy_from(&-&self.a);
-        for i in 0..n {
-            system[(i, n + i)] = -omega_radps;
-            system[(n + i, i)] = omega_radps;
-        }
-        let (input, output) = (input as usize, output as usize);
-        let mut right = DVector::zeros(2 * n);
-        right.rows_mut(0, n).copy_from(&self.b.column(input));
-        let x = system.lu().solve(&right).unwrap_or_else(|| panic!("a root on the axis"));
-        let row = self.c.row(output);
-        let part = |from: usize| (0..n).map(|i| row[i] * x[from + i]).sum::<f64>();
-        (part(0) + self.d[(output, input)], part(n))
+        let at = (0.0, omega_radps);
+        respond(&self.a, &self.b, (&self.c, &self.d), (input, output), at)
     }
+}
+
+/// C·(z − A)⁻¹·B + D, real and imaginary part.
+fn respond(
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+    (c, d): (&DMatrix<f64>, &DMatrix<f64>),
+    (input, output): (Input, Output),
+    z: (f64, f64),
+) -> (f64, f64) {
+    let n = a.nrows();
+    // (z − A)·(x + iy) = b in real numbers.
+    let mut system = DMatrix::zeros(2 * n, 2 * n);
+    system.view_mut((0, 0), (n, n)).copy_from(&-a);
+    system.view_mut((n, n), (n, n)).copy_from(&-a);
+    for i in 0..n {
+        system[(i, i)] += z.0;
+        system[(n + i, n + i)] += z.0;
+        system[(i, n + i)] = -z.1;
+        system[(n + i, i)] = z.1;
+    }
+    let (input, output) = (input as usize, output as usize);
+    let mut right = DVector::zeros(2 * n);
+    right.rows_mut(0, n).copy_from(&b.column(input));
+    let x = system.lu().solve(&right).unwrap_or_else(|| panic!("a root on the axis"));
+    let row = c.row(output);
+    let part = |from: usize| (0..n).map(|i| row[i] * x[from + i]).sum::<f64>();
+    (part(0) + d[(output, input)], part(n))
 }
