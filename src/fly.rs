@@ -283,10 +283,12 @@ impl Plan {
         };
         let start = aircraft::start(&scenario_name, &scenario_toml)?;
         let fuel_kg_max = aircraft.weight_balance.fuel_kg_max;
-        if start.fuel_kg > fuel_kg_max {
+        if let Some(fuel_kg) = start.fuel_kg
+            && fuel_kg > fuel_kg_max
+        {
             bail!(
                 "{scenario_name}: fuel of {:.0} kg: the tanks of {} hold {fuel_kg_max:.0} kg",
-                start.fuel_kg,
+                fuel_kg,
                 aircraft.name
             );
         }
@@ -409,7 +411,7 @@ impl Plan {
 
     /// Lets the pilot model of that name fly.
     pub fn set_pilot(&mut self, name: &str, map: &cockpit::Params) -> Result<()> {
-        let Some(pilot) = Pilot::named(name, map, &self.flight.aircraft.envelope.corridor) else {
+        let Some(pilot) = Pilot::named(name, map, &self.flight.aircraft) else {
             bail!("no pilot model is called `{name}`; there are {}", pilot_names());
         };
         self.phases = pilot.phases();

@@ -1,4 +1,6 @@
 //! Writes FlightGear's XV-15; run as a test it says whether the files in the tree are fresh.
+//!
+//! With an aircraft file and a folder it writes that aircraft's files there, in place of the XV-15's.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,14 +16,23 @@ fn made() -> Vec<File> {
     flightgear_package::files(&aircraft)
 }
 
-fn main() -> std::io::Result<()> {
-    for file in made() {
-        let path = folder().join(&file.path);
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    let (files, folder) = match &arguments[..] {
+        [] => (made(), folder()),
+        [file, folder] => {
+            let aircraft = aircraft::aircraft(file, &fs::read_to_string(file)?)?;
+            (flightgear_package::files(&aircraft), PathBuf::from(folder))
+        }
+        _ => return Err("expected nothing, or an aircraft file and a folder".into()),
+    };
+    for file in files {
+        let path = folder.join(&file.path);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent)?;
         }
         fs::write(&path, &file.bytes)?;
-        println!("{:>8} bytes  {FOLDER}/{}", file.bytes.len(), file.path);
+        println!("{:>8} bytes  {}", file.bytes.len(), path.display());
     }
     Ok(())
 }
@@ -106,6 +117,34 @@ mod tests {
                 assert!(!inside.contains("--"), "{file}: <!--{inside}-->");
             }
         }
+    }
+
+    /// Every point of the model's geometry, m.
+    fn points(files: &[File]) -> Vec<f64> {
+        let model = files.iter().find(|file| file.path == "Models/xv15.ac").expect("the model");
+        let text = std::str::from_utf8(&model.bytes).expect("text");
+        let mut points = Vec::new();
+        let mut lines = text.lines();
+        while let Some(line) = lines.next() {
+            let count = line.strip_prefix("numvert ").and_then(|count| count.parse().ok());
+            for vertex in lines.by_ref().take(count.unwrap_or(0)) {
+                points.extend(vertex.split(' ').filter_map(|number| number.parse::<f64>().ok()));
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn another_aircraft_has_a_model_of_its_own_size() {
+        let toml = tree("aircraft/generic.toml");
+        let generic = aircraft::aircraft("generic.toml", &toml).expect("an aircraft");
+        let size = |files: &[File]| {
+            let points = points(files);
+            assert!(points.len() > 1000, "{} numbers", points.len());
+            points.iter().fold(0.0_f64, |most, at| most.max(at.abs()))
+        };
+        let ratio = size(&flightgear_package::files(&generic)) / size(&made());
+        assert!((ratio - 0.8).abs() < 0.01, "{ratio}");
     }
 
     #[test]
