@@ -471,6 +471,28 @@ fn any_line_may_be_missing_or_nonsense() {
     }
 }
 
+/// Two blocks have a table `drag`, each over an angle of its own.
+#[test]
+fn a_table_over_another_block_s_axis_is_refused_with_the_right_one() {
+    for (table, given, other) in [
+        ("horizontal_stabilizer.drag", "alpha_deg", "beta_deg"),
+        ("vertical_stabilizers.drag", "beta_deg", "alpha_deg"),
+        ("vertical_stabilizers.drag_by_mach.mach_0_5", "beta_deg", "alpha_deg"),
+        ("horizontal_stabilizer.drag_by_mach.mach_0_5", "alpha_deg", "beta_deg"),
+        ("vertical_stabilizers.side_force_by_mach.mach_0_4", "beta_deg", "alpha_deg"),
+        ("wing_pylon.lift.upright.flap_20", "alpha_deg", "beta_deg"),
+    ] {
+        let line = line_of(XV15, table, given);
+        let mut lines: Vec<_> = XV15.lines().map(str::to_owned).collect();
+        lines[line - 1] = lines[line - 1].replacen(given, other, 1);
+        let error = aircraft::aircraft("xv15.toml", &lines.join("\n")).unwrap_err().to_string();
+        let (right, wrong) = (given.replace("_deg", "_rad"), other.replace("_deg", "_rad"));
+        assert!(error.contains(table) && error.contains(&right), "{error}");
+        let told = error.split("expected").nth(1).unwrap_or_default();
+        assert!(told.find(&right) < told.find(&wrong), "{error}");
+    }
+}
+
 /// What the program fixes, as docs/aircraft.md lists it.
 #[test]
 fn counts_that_are_fixed_are_told() {
