@@ -16,7 +16,7 @@ use crate::Matrix;
 use crate::solve::solve;
 
 /// Inner states are fast: their rates are large where their effect is small.
-const INNER_WEIGHT: f64 = 0.02;
+pub(super) const INNER_WEIGHT: f64 = 0.02;
 
 /// Below this an acceleration is rounding.
 const STEADY: f64 = 1e-8;
