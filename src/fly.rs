@@ -122,7 +122,8 @@ struct Air {
     #[arg(long, value_name = "FPM", requires = "from_trim", default_value_t = 0.0)]
     #[arg(value_parser = numbers::climb_fpm, allow_negative_numbers = true)]
     climb_fpm: f64,
-    /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
+    /// Flap lever, one of its detents: the XV-15's are 0, 20, 40 and 75 deg (without: the one next to 40 with
+    /// nacelles above 75 deg, to 20 above 15, else to 0)
     #[arg(long, value_name = "DEG", requires = "from_trim")]
     #[arg(value_parser = numbers::flap_deg, allow_negative_numbers = true)]
     flap: Option<f64>,

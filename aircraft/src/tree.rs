@@ -337,6 +337,8 @@ impl Walk<'_> {
         let Some(expected) = expected else {
             return match arguments.into_iter().next() {
                 None => Ok(value),
+                // A table of a name that the engine does not have: who reads it knows which there are.
+                Some((_, Node { value: Value::Array(_), .. })) => Ok(Value::Table(Vec::new())),
                 Some((_, extra)) => {
                     let expected = PARTS.map(str::to_owned).to_vec();
                     Err(self.error(&extra.key, extra.line, Problem::UnknownKey { expected }))
