@@ -92,6 +92,6 @@ fn it_takes_off_converts_lands_reflies_and_is_drawn_as_itself() {
     let mut forgery = Forgery::of(&log);
     let drawn = String::from_utf8_lossy(forgery.bytes("/robot_description", 0)).into_owned();
     assert!(drawn.contains(aircraft::urdf(&generic).trim()), "its own shape");
-    assert!(drawn.contains("<robot name=\"Generic tilt-rotor\">"), "its own name");
+    assert!(drawn.contains("<robot name=\"generic_tilt_rotor\">"), "its own name");
     assert!(drawn.contains("radius=\"3.048\""), "its own rotors: {drawn}");
 }

@@ -152,18 +152,7 @@ impl Pilot {
                 order.heading_rad = wrap_angle(seen.euler.heading_rad - TURN_AHEAD_RAD);
                 false
             }
-            Phase::Home { bank_rad } => {
-                order.bank_rad_max = bank_rad;
-                let (to_rad, distance_m) = bearing(seen, order.start_m);
-                let turned_rad = -seen.euler_rate.heading_radps * HAND_S;
-                order.turned_rad += turned_rad;
-                let off_rad = wrap_angle(to_rad - track_rad(seen));
-                let lead_rad = -seen.euler_rate.heading_radps * ROLL_OUT_S;
-                order.heading_rad = wrap_angle(seen.euler.heading_rad - TURN_AHEAD_RAD);
-                order.turned_rad > HALF_TURN_RAD
-                    && off_rad.abs() < lead_rad.abs() + ROLL_OUT_RAD
-                    && distance_m > HERE_M
-            }
+            Phase::Home { bank_rad } => self.home(seen, bank_rad),
             Phase::Approach { height_m: to_m } => self.approach(seen, to_m),
             Phase::Stop { height_m: to_m } => self.stop(seen, to_m),
             Phase::FaceStart => {
@@ -176,6 +165,21 @@ impl Pilot {
                 down_s > SETTLE_S && (seen.velocity_mps.norm() < ROLLING_MPS || down_s > ROLL_S)
             }),
         }
+    }
+
+    /// Turns left until it goes towards the spot where the flight began.
+    fn home(&mut self, seen: &Outputs, bank_rad: f64) -> bool {
+        let order = &mut self.order;
+        order.bank_rad_max = bank_rad;
+        let (to_rad, distance_m) = bearing(seen, order.start_m);
+        let turned_rad = -seen.euler_rate.heading_radps * HAND_S;
+        order.turned_rad += turned_rad;
+        let off_rad = wrap_angle(to_rad - track_rad(seen));
+        let lead_rad = -seen.euler_rate.heading_radps * ROLL_OUT_S;
+        order.heading_rad = wrap_angle(seen.euler.heading_rad - TURN_AHEAD_RAD);
+        order.turned_rad > HALF_TURN_RAD
+            && off_rad.abs() < lead_rad.abs() + ROLL_OUT_RAD
+            && distance_m > HERE_M
     }
 
     /// To the spot where the flight began.

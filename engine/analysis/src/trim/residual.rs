@@ -3,7 +3,6 @@
 use alloc::string::ToString;
 use core::fmt;
 
-use super::newton::INNER_WEIGHT;
 use crate::variable::Inner;
 
 /// What must vanish in steady flight, beside the rates of the inner states.
@@ -50,6 +49,9 @@ impl Equation {
         }
     }
 }
+
+/// Inner states are fast: their rates are large where their effect is small.
+pub(super) const INNER_WEIGHT: f64 = 0.02;
 
 /// Ends of inner states' names, and the units of their rates.
 const RATES: [(&str, &str); 4] =
