@@ -119,32 +119,30 @@ mod tests {
         }
     }
 
-    /// Every point of the model's geometry, m.
-    fn points(files: &[File]) -> Vec<f64> {
+    /// How long a part of the model is along the aircraft, m.
+    fn length_m(files: &[File], part: &str) -> f64 {
         let model = files.iter().find(|file| file.path == "Models/xv15.ac").expect("the model");
         let text = std::str::from_utf8(&model.bytes).expect("text");
-        let mut points = Vec::new();
-        let mut lines = text.lines();
-        while let Some(line) = lines.next() {
-            let count = line.strip_prefix("numvert ").and_then(|count| count.parse().ok());
-            for vertex in lines.by_ref().take(count.unwrap_or(0)) {
-                points.extend(vertex.split(' ').filter_map(|number| number.parse::<f64>().ok()));
-            }
-        }
-        points
+        let (_, of_part) = text.split_once(&format!("name \"{part}\"")).expect(part);
+        let (_, vertices) = of_part.split_once("numvert ").expect("vertices");
+        let count = vertices.lines().next().and_then(|count| count.parse().ok()).expect("a count");
+        let along = vertices.lines().skip(1).take(count).map(|vertex| {
+            vertex.split(' ').next().and_then(|x| x.parse::<f64>().ok()).expect("a number")
+        });
+        let along: Vec<f64> = along.collect();
+        let least = along.iter().copied().fold(f64::INFINITY, engine::math::min);
+        along.iter().copied().fold(f64::NEG_INFINITY, engine::math::max) - least
     }
 
     #[test]
     fn another_aircraft_has_a_model_of_its_own_size() {
         let toml = tree("aircraft/generic.toml");
         let generic = aircraft::aircraft("generic.toml", &toml).expect("an aircraft");
-        let size = |files: &[File]| {
-            let points = points(files);
-            assert!(points.len() > 1000, "{} numbers", points.len());
-            points.iter().fold(0.0_f64, |most, at| most.max(at.abs()))
-        };
-        let ratio = size(&flightgear_package::files(&generic)) / size(&made());
-        assert!((ratio - 0.8).abs() < 0.01, "{ratio}");
+        let (generic, xv15) = (flightgear_package::files(&generic), made());
+        for part in ["fuselage", "tailplane", "pods", "spinner.left"] {
+            let ratio = length_m(&generic, part) / length_m(&xv15, part);
+            assert!((ratio - 0.8).abs() < 0.01, "{part}: {ratio}");
+        }
     }
 
     #[test]
