@@ -57,8 +57,7 @@ fn setup() -> Setup {
 /// A flight by the hover pilot, as fast as it goes.
 fn flown(name: &str, ticks: u64) -> (PathBuf, State) {
     let (aircraft, start) = ready();
-    let pilot =
-        Pilot::named("hover", &aircraft.cockpit, &aircraft.envelope.corridor).expect("it exists");
+    let pilot = Pilot::named("hover", &aircraft.cockpit, &aircraft).expect("it exists");
     let initial = start.on_wheels(&aircraft);
     let out = scratch(name);
     let flight = Flight {

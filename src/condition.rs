@@ -41,10 +41,10 @@ pub struct Condition {
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     #[arg(value_parser = within(limits::SIDESLIP_DEG, "deg"), allow_negative_numbers = true)]
     pub sideslip_deg: f64,
-    /// Gross weight, lb
-    #[arg(long, value_name = "LB", default_value_t = 13_000.0)]
+    /// Gross weight, lb (without: tanks full, 13000 for the XV-15)
+    #[arg(long, value_name = "LB")]
     #[arg(value_parser = within(limits::WEIGHT_LB, "lb"), allow_negative_numbers = true)]
-    pub weight_lb: f64,
+    pub weight_lb: Option<f64>,
     /// Above mean sea level, ft
     #[arg(long, value_name = "FT", default_value_t = 0.0)]
     #[arg(value_parser = numbers::altitude_ft, allow_negative_numbers = true)]
@@ -57,7 +57,8 @@ pub struct Condition {
     #[arg(long, value_name = "K", default_value_t = 0.0)]
     #[arg(value_parser = within(limits::ISA_K, "K"), allow_negative_numbers = true)]
     pub isa_k: f64,
-    /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
+    /// Flap lever, one of its detents: the XV-15's are 0, 20, 40 and 75 deg (without: the one next to 40 with
+    /// nacelles above 75 deg, to 20 above 15, else to 0)
     #[arg(long, value_name = "DEG")]
     #[arg(value_parser = numbers::flap_deg, allow_negative_numbers = true)]
     pub flap: Option<f64>,

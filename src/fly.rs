@@ -122,7 +122,8 @@ struct Air {
     #[arg(long, value_name = "FPM", requires = "from_trim", default_value_t = 0.0)]
     #[arg(value_parser = numbers::climb_fpm, allow_negative_numbers = true)]
     climb_fpm: f64,
-    /// Flap lever: 0, 20, 40 or 75 deg (without: 40 with nacelles above 75 deg, 20 above 15, else 0)
+    /// Flap lever, one of its detents: the XV-15's are 0, 20, 40 and 75 deg (without: the one next to 40 with
+    /// nacelles above 75 deg, to 20 above 15, else to 0)
     #[arg(long, value_name = "DEG", requires = "from_trim")]
     #[arg(value_parser = numbers::flap_deg, allow_negative_numbers = true)]
     flap: Option<f64>,
@@ -283,10 +284,12 @@ impl Plan {
         };
         let start = aircraft::start(&scenario_name, &scenario_toml)?;
         let fuel_kg_max = aircraft.weight_balance.fuel_kg_max;
-        if start.fuel_kg > fuel_kg_max {
+        if let Some(fuel_kg) = start.fuel_kg
+            && fuel_kg > fuel_kg_max
+        {
             bail!(
                 "{scenario_name}: fuel of {:.0} kg: the tanks of {} hold {fuel_kg_max:.0} kg",
-                start.fuel_kg,
+                fuel_kg,
                 aircraft.name
             );
         }
@@ -409,7 +412,7 @@ impl Plan {
 
     /// Lets the pilot model of that name fly.
     pub fn set_pilot(&mut self, name: &str, map: &cockpit::Params) -> Result<()> {
-        let Some(pilot) = Pilot::named(name, map, &self.flight.aircraft.envelope.corridor) else {
+        let Some(pilot) = Pilot::named(name, map, &self.flight.aircraft) else {
             bail!("no pilot model is called `{name}`; there are {}", pilot_names());
         };
         self.phases = pilot.phases();

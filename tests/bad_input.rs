@@ -152,7 +152,7 @@ fn a_wrong_scenario_is_named_with_its_line() {
 #[test]
 fn more_fuel_than_the_tanks_hold_is_refused() {
     let place = folder("bad-fuel");
-    let scenario = SCENARIO.replace("fuel_lb = 1475.0", "fuel_lb = 3000.0");
+    let scenario = format!("fuel_lb = 3000.0\n{SCENARIO}");
     assert_ne!(scenario, SCENARIO);
     let path = file(&place, "scenario.toml", &scenario);
     fly(&place, &["--scenario", text(&path)])

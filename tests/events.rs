@@ -112,7 +112,7 @@ fn what_happened_around_a_moment_is_found_without_a_script() {
 fn empty_tanks_and_the_impact_are_told_with_sink_and_speed() {
     let place = folder("events-impact");
     let scenario = place.join("scenario.toml");
-    let little = aircraft::DEFAULT_SCENARIO.replace("fuel_lb = 1475.0", "fuel_lb = 1.0");
+    let little = format!("fuel_lb = 1.0\n{}", aircraft::DEFAULT_SCENARIO);
     fs::write(&scenario, little).expect("a file");
     let more = [
         "--scenario",

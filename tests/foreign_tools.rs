@@ -168,3 +168,47 @@ fn what_was_changed_on_the_way_is_still_found() {
         verify(&changed).ends(UNUSABLE).says("aircraft.toml is not in it");
     }
 }
+
+/// Every 7th message has one of theirs behind it.
+fn theirs_among(log: &Forgery) -> usize {
+    log.messages.len().div_ceil(7)
+}
+
+#[test]
+fn what_is_foreign_and_what_is_out_of_place_is_counted_by_every_verb() {
+    let place = folder("foreign-counted");
+    let notes = mcap::records::Metadata {
+        name: "somebody.notes".into(),
+        metadata: BTreeMap::from([("weather".into(), "fine".into())]),
+    };
+    let mut log = Forgery::of(flight());
+    log.metadata.insert(0, notes);
+    let whole = place.join("whole.mcap");
+    write(&log, &TOOLS[0], Some("/theirs"), &whole);
+
+    // Whole: theirs is named, and takes nothing from the flight.
+    tiltrotor(&["log", "info", text(&whole)]).ends(OK).says("somebody.notes").says("fine");
+    verify(&whole).ends(OK).says("exact: all 500 ticks");
+    let lines = |log: &Path, status: i32| {
+        tiltrotor(&["log", "cat", text(log), "--channel", "state"]).ends(status).out.lines().count()
+    };
+    assert_eq!(lines(&whole, OK), 501, "the first state, and one a tick");
+    tiltrotor(&["log", "recover", text(&whole), "--out", text(&place.join("no.mcap"))]).refused();
+
+    // The timing of tick 100 stands behind everything: one record out of place.
+    let at = log.places("/timing")[99];
+    let late = log.messages.remove(at);
+    log.messages.push(late);
+    let broken = place.join("misplaced.mcap");
+    write(&log, &TOOLS[0], Some("/theirs"), &broken);
+    let info = tiltrotor(&["log", "info", text(&broken)]);
+    assert_ne!(info.status, Some(OK), "{info}");
+    info.says("somebody.notes");
+    let said = verify(&broken);
+    assert_ne!(said.status, Some(OK), "{said}");
+    said.says("500");
+    let fixed = place.join("fixed.mcap");
+    let said = tiltrotor(&["log", "recover", text(&broken), "--out", text(&fixed)]);
+    said.says(&format!("{} messages on channels of others", theirs_among(&log)));
+    verify(&fixed).says("500");
+}

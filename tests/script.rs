@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use common::{OK, folder, text, tiltrotor, verify};
+use engine::cockpit::{Device, Travel};
+use engine::controls::PilotControls;
 use engine::inputs::{EventKind, Failures, World};
 use logs::records::FlightEvent;
 use logs::{FlightReader, OpenOptions, Tick};
@@ -200,4 +202,111 @@ fn the_same_script_gives_the_same_digest() {
         tiltrotor(&["fly", "--script", script, "--fast", "--no-flightgear", "--out", out]).ends(OK);
     let first = tiltrotor(&["log", "info", text(flight())]).ends(OK);
     assert!(again.out.contains(first.after("digest")), "{again}");
+}
+
+/// A script of steps a tenth of a second apart, flown: the cockpit a tick or two after each.
+fn cockpits_after(name: &str, steps: &[String]) -> Vec<PilotControls> {
+    let mut toml = String::new();
+    for (number, step) in steps.iter().enumerate() {
+        let at_s = 0.1 * (number + 1) as f64;
+        toml += &format!("[[event]]\nat_s = {at_s:.1}\n{step}\n");
+    }
+    toml += &format!("[[event]]\nat_s = {:.1}\nend = true\n", 0.1 * (steps.len() + 1) as f64);
+    let place = folder(name);
+    let (script, log) = (place.join("flight.toml"), place.join("flight.mcap"));
+    fs::write(&script, toml).expect("a script");
+    let flight =
+        ["fly", "--script", text(&script), "--fast", "--no-flightgear", "--out", text(&log)];
+    tiltrotor(&flight).ends(OK);
+    verify(&log).ends(OK);
+    let mut reader = logs::open(&log, OpenOptions::default()).expect("a log");
+    let mut cockpits = Vec::new();
+    while let Some(flown) = reader.next_tick().expect("a tick") {
+        cockpits.push(flown.record.state.cockpit);
+    }
+    (1..=steps.len()).map(|number| cockpits[number * 25 + 2]).collect()
+}
+
+/// The controls that scripts have.
+fn scripted() -> Device {
+    let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).expect("our own map");
+    map.device.into_iter().next().expect("a device")
+}
+
+#[test]
+fn every_axis_of_a_script_goes_to_both_ends_and_back_and_no_farther() {
+    let axes: Vec<_> = scripted().axis.iter().map(|axis| axis.control).collect();
+    assert!(axes.len() >= 6, "{axes:?}");
+    let mut steps = Vec::new();
+    for axis in &axes {
+        let (key, low) = match axis.facts().travel {
+            Travel::Centred => (axis.facts().key, -1.0),
+            Travel::FromEnd => (axis.facts().key, 0.0),
+        };
+        for to in [1.0, low, 0.0] {
+            steps.push((*axis, to, format!("axis = {{ {key} = {to:?} }}")));
+        }
+        for beyond in [1.01, low - 0.01] {
+            let place = folder("script-beyond");
+            let script = place.join("beyond.toml");
+            let event = format!("[[event]]\nat_s = 0.1\naxis = {{ {key} = {beyond:?} }}\n");
+            fs::write(&script, event).expect("a script");
+            let said = tiltrotor(&["fly", "--script", text(&script), "--fast", "--no-flightgear"]);
+            said.refused().says(&format!("axis.{key}: expected {low} to 1")).says("got");
+        }
+    }
+    let texts: Vec<_> = steps.iter().map(|(.., text)| text.clone()).collect();
+    let flown = cockpits_after("script-axes", &texts);
+    for ((axis, to, text), cockpit) in steps.iter().zip(&flown) {
+        let found = (axis.facts().get)(cockpit);
+        // A raw value has 15 bits and a sign.
+        assert!((found - to).abs() < 2e-5, "{text}: {found}");
+    }
+}
+
+#[test]
+fn every_button_of_a_script_is_pressed_past_its_ends_and_back() {
+    let buttons: Vec<_> = scripted().button.iter().map(|button| button.control).collect();
+    let read = |what: &str, cockpit: &PilotControls| match what {
+        "flap" => cockpit.flap_detent as i64,
+        "gear" => cockpit.gear_down as i64,
+        "brake" => cockpit.parking_brake as i64,
+        "scas" => cockpit.scas_on as i64,
+        "rpm" => cockpit.rpm_select as i64,
+        "markers" => cockpit.markers as i64,
+        _ => cockpit.nacelle_aft_norm as i64,
+    };
+    // Each with what it moves and where that is after every press: flaps from 40 deg past full flap, up past flaps
+    // up, and back; handles there and back; rotor speeds around; both nacelle switches, the later one counts.
+    let presses: [(&str, &str, &str, &[i64]); 9] = [
+        ("press", "flap_down", "flap", &[3, 3, 3]),
+        ("press", "flap_up", "flap", &[2, 1, 0, 0, 0]),
+        ("press", "flap_down", "flap", &[1, 2]),
+        ("press", "gear_toggle", "gear", &[0, 1]),
+        ("press", "parking_brake_toggle", "brake", &[0, 1]),
+        ("press", "scas_toggle", "scas", &[0, 1]),
+        ("press", "rpm_select", "rpm", &[1, 2, 0, 1, 2, 0]),
+        ("press", "marker", "markers", &[1, 2]),
+        ("hold", "nacelle_aft", "nacelles", &[1, 1]),
+    ];
+    let releases: [(&str, &str, &str, &[i64]); 4] = [
+        ("release", "nacelle_aft", "nacelles", &[0, 0]),
+        ("hold", "nacelle_forward", "nacelles", &[-1, -1]),
+        ("release", "nacelle_forward", "nacelles", &[0]),
+        ("press", "nacelle_forward", "nacelles", &[0]),
+    ];
+    let all: Vec<_> = presses.iter().chain(&releases).collect();
+    for button in buttons {
+        let key = button.facts().key;
+        assert!(all.iter().any(|(_, pressed, ..)| *pressed == key), "{key} is not pressed");
+    }
+    let steps = all.iter().flat_map(|(verb, key, what, after)| {
+        after.iter().map(move |after| (format!("{verb} = [\"{key}\"]"), *what, *after))
+    });
+    let steps: Vec<_> = steps.collect();
+    let texts: Vec<_> = steps.iter().map(|(text, ..)| text.clone()).collect();
+    let flown = cockpits_after("script-buttons", &texts);
+    for (number, ((text, what, after), cockpit)) in steps.iter().zip(&flown).enumerate() {
+        assert_eq!(read(what, cockpit), *after, "step {number}: {text}");
+    }
 }

@@ -72,6 +72,16 @@ const BOUNDS: &[(&str, f64, f64)] = &[
     ("rotor_speed_radps_min", 0.0, LARGEST),
     ("rotor_speed_radps_max", SMALLEST, LARGEST),
     ("angular_rate_radps_max", SMALLEST, LARGEST),
+    // What a pilot knows.
+    ("helicopter_mps", SMALLEST, LARGEST),
+    ("circuit_mps", SMALLEST, LARGEST),
+    ("cruise_mps", SMALLEST, LARGEST),
+    ("over_a_spot_mps_max", 0.0, LARGEST),
+    ("flying_mps_min", SMALLEST, LARGEST),
+    ("lift_m2_per_kg_rad", SMALLEST, LARGEST),
+    ("lever_mps2", SMALLEST, LARGEST),
+    ("lever_w_per_kg", SMALLEST, LARGEST),
+    ("half_stick_pa", SMALLEST, LARGEST),
     // Shapes.
     ("sweep_rad", -1.4, 1.4),
     ("dihedral_rad", -1.4, 1.4),

@@ -1,7 +1,7 @@
 //! Tables that aircraft files of before they existed do not have.
 //!
 //! Every log carries the aircraft file that it was flown with, and is read as long as there are logs.
-//! What `[envelope]` and `[display]` say now was part of the program then, the same for every
+//! What `[envelope]`, `[pilot]` and `[display]` say now was part of the program then, the same for every
 //! aircraft: the XV-15's. So a file without such a table gets the XV-15's whole, and a log of that
 //! time is read, drawn and marked as it was. A new file has tables of its own: the XV-15's corridor
 //! is no other aircraft's. A table that is there is complete or refused.
@@ -12,7 +12,7 @@ use crate::error::ConfigError;
 use crate::tree::{self, Node, Numbers, Value};
 
 /// The tables.
-const TABLES: [&str; 2] = ["envelope", "display"];
+const TABLES: [&str; 3] = ["envelope", "pilot", "display"];
 
 static XV15: LazyLock<Result<Vec<(String, Node)>, ConfigError>> = LazyLock::new(|| {
     let Value::Table(nodes) = tree::parse("xv15.toml", crate::XV15, Numbers::Sourced)?.0.value

@@ -16,6 +16,7 @@ mod edit;
 mod error;
 mod provenance;
 mod read;
+mod sections;
 mod tree;
 pub mod units;
 mod urdf;
@@ -66,11 +67,12 @@ pub const DEFAULT_SCENARIO: &str = include_str!("../scenario/default.toml");
 
 /// Reads an aircraft file. Its cockpit map is empty: that has a file of its own.
 ///
-/// A file without `[envelope]` or `[display]` is one of before these tables existed, as old logs carry
+/// A file without `[envelope]`, `[pilot]` or `[display]` is one of before these tables existed, as old logs carry
 /// them: it gets the XV-15's.
 pub fn aircraft(file_name: &str, text: &str) -> Result<engine::Aircraft, ConfigError> {
     let mut tree = tree::parse(file_name, text, Numbers::Sourced)?.0;
     complete::complete(&mut tree)?;
+    sections::divide(&mut tree);
     check::ranges(file_name, &tree)?;
     let params = read::read(file_name, &tree)?;
     check::aircraft(file_name, &tree, &params)?;

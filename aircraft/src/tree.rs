@@ -110,7 +110,8 @@ impl Lines {
     }
 }
 
-/// The engine's tables: (key, arguments), in SI. A key that two blocks have counts with either's.
+/// The engine's tables: (key, arguments), in SI. A key that two blocks have with other arguments stands with the
+/// tables that it is in; of the rows that fit, the longest counts.
 const TABLES: &[(&str, &[&str])] = &[
     ("attitude_by_tilt_norm", &["mast_tilt_rad"]),
     ("stick_by_tilt_m_per_rad", &["mast_tilt_rad"]),
@@ -140,7 +141,7 @@ const TABLES: &[(&str, &[&str])] = &[
     ("short_torque_n_m_max", &["rotor_speed_radps"]),
     // Rotor wake.
     ("tail_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
-    ("sideslip_factor", &["beta_rad", "mast_tilt_rad"]),
+    ("rotor_wake.sideslip_factor", &["beta_rad", "mast_tilt_rad"]),
     // Wing and pylons.
     ("flap_0", &["alpha_rad"]),
     ("flap_20", &["alpha_rad"]),
@@ -172,22 +173,25 @@ const TABLES: &[(&str, &[&str])] = &[
     // Stabilisers.
     ("elevator_by_mach", &["mach"]),
     ("lift", &["alpha_rad", "elevator_rad"]),
-    ("drag", &["alpha_rad"]),
-    ("sideslip_factor", &["beta_rad"]),
+    ("horizontal_stabilizer.drag", &["alpha_rad"]),
+    ("horizontal_stabilizer.sideslip_factor", &["beta_rad"]),
     ("downwash_rad", &["mast_tilt_rad", "alpha_rad", "flap_rad"]),
     ("pressure_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
     ("pressure_factor", &["mast_tilt_rad"]),
     ("side_force", &["beta_rad", "rudder_rad"]),
-    ("drag", &["beta_rad"]),
-    ("mach_0_4", &["beta_rad"]),
-    ("mach_0_5", &["beta_rad"]),
-    ("mach_0_6", &["beta_rad"]),
+    ("vertical_stabilizers.drag", &["beta_rad"]),
+    ("side_force_by_mach.mach_0_4", &["beta_rad"]),
+    ("side_force_by_mach.mach_0_5", &["beta_rad"]),
+    ("side_force_by_mach.mach_0_6", &["beta_rad"]),
+    ("vertical_stabilizers.drag_by_mach.mach_0_4", &["beta_rad"]),
+    ("vertical_stabilizers.drag_by_mach.mach_0_5", &["beta_rad"]),
+    ("vertical_stabilizers.drag_by_mach.mach_0_6", &["beta_rad"]),
     ("rudder_by_mach", &["mach"]),
     ("rotor_sidewash", &["airspeed_mps", "beta_rad"]),
-    ("flap_0", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
-    ("flap_20", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
-    ("flap_40", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
-    ("flap_75", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
+    ("fuselage_sidewash.flap_0", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
+    ("fuselage_sidewash.flap_20", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
+    ("fuselage_sidewash.flap_40", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
+    ("fuselage_sidewash.flap_75", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
 ];
 
 /// What accompanies a sourced number's value.
@@ -318,13 +322,23 @@ impl Walk<'_> {
         value: Value,
         arguments: Vec<(String, Node)>,
     ) -> Result<Value, ConfigError> {
-        let mut kinds = TABLES.iter().filter(|(name, _)| *name == si_name).map(|(_, names)| *names);
+        let within = entry.path.rsplit_once('.').map_or("", |(tables, _)| tables);
+        let place = format!("{within}.{si_name}");
+        let fits = |name: &str| {
+            place
+                .strip_suffix(name)
+                .is_some_and(|before| before.is_empty() || before.ends_with('.'))
+        };
+        let rows = TABLES.iter().filter(|(name, _)| fits(name));
+        let expected = rows.max_by_key(|(name, _)| name.len()).map(|(_, names)| *names);
         let given = |expected: &&[&str]| {
             arguments.iter().map(|(name, _)| name.as_str()).eq(expected.iter().copied())
         };
-        let Some(expected) = kinds.clone().find(given).or_else(|| kinds.next()) else {
+        let Some(expected) = expected else {
             return match arguments.into_iter().next() {
                 None => Ok(value),
+                // A table of a name that the engine does not have: who reads it knows which there are.
+                Some((_, Node { value: Value::Array(_), .. })) => Ok(Value::Table(Vec::new())),
                 Some((_, extra)) => {
                     let expected = PARTS.map(str::to_owned).to_vec();
                     Err(self.error(&extra.key, extra.line, Problem::UnknownKey { expected }))

@@ -471,3 +471,86 @@ fn any_line_may_be_missing_or_nonsense() {
         }
     }
 }
+
+/// Two blocks have a table `drag`, each over an angle of its own.
+#[test]
+fn a_table_over_another_block_s_axis_is_refused_with_the_right_one() {
+    for (table, given, other) in [
+        ("horizontal_stabilizer.drag", "alpha_deg", "beta_deg"),
+        ("vertical_stabilizers.drag", "beta_deg", "alpha_deg"),
+        ("vertical_stabilizers.drag_by_mach.mach_0_5", "beta_deg", "alpha_deg"),
+        ("horizontal_stabilizer.drag_by_mach.mach_0_5", "alpha_deg", "beta_deg"),
+        ("vertical_stabilizers.side_force_by_mach.mach_0_4", "beta_deg", "alpha_deg"),
+        ("wing_pylon.lift.upright.flap_20", "alpha_deg", "beta_deg"),
+    ] {
+        let line = line_of(XV15, table, given);
+        let mut lines: Vec<_> = XV15.lines().map(str::to_owned).collect();
+        lines[line - 1] = lines[line - 1].replacen(given, other, 1);
+        let error = aircraft::aircraft("xv15.toml", &lines.join("\n")).unwrap_err().to_string();
+        let (right, wrong) = (given.replace("_deg", "_rad"), other.replace("_deg", "_rad"));
+        assert!(error.contains(table) && error.contains(&right), "{error}");
+        let told = error.split("expected").nth(1).unwrap_or_default();
+        assert!(told.find(&right) < told.find(&wrong), "{error}");
+    }
+}
+
+/// What the program fixes, as docs/aircraft.md lists it.
+#[test]
+fn counts_that_are_fixed_are_told() {
+    changed(
+        "fcc.mixer",
+        "flap_deg",
+        &format!("flap_deg = {{ value = [0.0, 20.0, 40.0], {SOURCED}"),
+        "fcc.mixer.flap_deg: expected an array of 4, found one of 3",
+    );
+    changed(
+        "fcc.governor",
+        "rotor_speed_rpm",
+        &format!("rotor_speed_rpm = {{ value = [589.0, 517.0], {SOURCED}"),
+        "fcc.governor.rotor_speed_rpm: expected an array of 3, found one of 2",
+    );
+    let five = XV15.replace("[0.55, 0.80, 0.95, 1.0]", "[0.3, 0.55, 0.80, 0.95, 1.0]");
+    let five = five
+        .replace("    [-0.302,", "    [-0.302, -0.137, 0.039, 0.26, 0.483, 0.70, 0.935, 1.01, 1.105, 1.122],\n    [-0.302,")
+        .replace("    [0.014,", "    [0.014, 0.014, 0.014, 0.014, 0.014, 0.026, 0.028],\n    [0.014,");
+    let error = aircraft::aircraft("xv15.toml", &five).unwrap_err().to_string();
+    assert!(error.contains("the same four regions in lift and drag"), "{error}");
+    let (text, line) = with_line(
+        "wing_pylon.lift.upright.flap_20",
+        "[wing_pylon.lift.upright.flap_20]",
+        "[wing_pylon.lift.upright.flap_15]",
+    );
+    let error = aircraft::aircraft("xv15.toml", &text).unwrap_err().to_string();
+    let told = format!(
+        "xv15.toml:{line}: wing_pylon.lift.upright.flap_15: unknown key; expected one of flap_0, flap_20, \
+         flap_40, flap_75"
+    );
+    assert!(error.starts_with(&told), "{error}");
+}
+
+/// Three sections are four of which two are alike.
+#[test]
+fn a_blade_of_fewer_sections_is_divided() {
+    let three = XV15
+        .replace("radius_norm = [0.55, 0.80, 0.95, 1.0]", "radius_norm = [0.80, 0.95, 1.0]")
+        .replace("    [-0.302, -0.137, 0.039, 0.26, 0.483, 0.70, 0.935, 1.01, 1.105, 1.122],\n", "")
+        .replace("    [0.014, 0.014, 0.014, 0.014, 0.014, 0.026, 0.028],\n", "");
+    let aircraft =
+        aircraft::aircraft("three.toml", &three).unwrap_or_else(|error| panic!("{error}"));
+    let section = &aircraft.rotors.blade.section;
+    let middle = 0.5 * (0.0875 + 0.80);
+    assert_eq!(section.lift_coefficient.x, [middle, 0.80, 0.95, 1.0]);
+    assert_eq!(section.drag_coefficient.x, [middle, 0.80, 0.95, 1.0]);
+    assert_eq!(section.lift_coefficient.z[0], section.lift_coefficient.z[1]);
+    assert_ne!(section.lift_coefficient.z[1], section.lift_coefficient.z[2]);
+}
+
+#[test]
+fn speeds_of_a_pilot_that_do_not_go_together_are_refused() {
+    changed(
+        "pilot",
+        "flap_down_kt",
+        &format!("flap_down_kt = {{ value = 200.0, {SOURCED}"),
+        "pilot.flap_down_kt: bad table; expected slower than flap_up_mps",
+    );
+}

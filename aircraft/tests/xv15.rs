@@ -75,7 +75,7 @@ fn cockpit_maps_and_scenario_load() {
         assert_eq!(map.device.len(), 1);
     }
     let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
-    close(start.fuel_kg, 1475.0 * 0.453_592_37);
+    close(start.fuel_aboard_kg(&xv15()), 1475.0 * 0.453_592_37);
     close(start.origin.latitude_rad, 19.721_359 * DEG);
 }
 

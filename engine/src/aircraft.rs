@@ -7,7 +7,8 @@ use serde::Deserialize;
 use crate::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
 use crate::rotors::blade;
 use crate::{
-    actuators, cockpit, display, engines, envelope, fcc, landing_gear, rotors, weight_balance,
+    actuators, cockpit, display, engines, envelope, fcc, landing_gear, pilot, rotors,
+    weight_balance,
 };
 
 /// A tilt-rotor that can be flown: its parameters, and what is derived from them.
@@ -91,6 +92,8 @@ pub struct Params {
     pub landing_gear: landing_gear::Params,
     /// Where it is flown, and where the model holds.
     pub envelope: envelope::Params,
+    /// What a pilot knows of it.
+    pub pilot: pilot::Params,
     /// What it looks like.
     pub display: display::Params,
 }
@@ -135,6 +138,7 @@ impl Params {
             .or_else(|| self.horizontal_stabilizer.fault())
             .or_else(|| self.vertical_stabilizers.fault())
             .or_else(|| self.envelope.fault())
+            .or_else(|| self.pilot.fault())
             .or_else(|| self.display.fault())
     }
 }

@@ -36,6 +36,7 @@ pub mod math;
 pub mod motion;
 pub mod outputs;
 pub mod pair;
+pub mod pilot;
 pub mod references;
 pub mod rotors;
 pub mod start;

@@ -21,8 +21,9 @@ pub struct Start {
     pub origin: Geodetic,
     /// Heading.
     pub heading_rad: f64,
-    /// Fuel aboard.
-    pub fuel_kg: f64,
+    /// Fuel aboard; without it the tanks are full.
+    #[serde(default)]
+    pub fuel_kg: Option<f64>,
     /// Flap lever's detent, 0..3.
     pub flap_detent: u64,
     /// The world.
@@ -105,12 +106,17 @@ impl WorldStart {
 }
 
 impl Start {
+    /// Fuel aboard that aircraft.
+    pub fn fuel_aboard_kg(&self, aircraft: &Aircraft) -> f64 {
+        self.fuel_kg.unwrap_or(aircraft.weight_balance.fuel_kg_max)
+    }
+
     /// The aircraft come to rest on its wheels, brakes set, rotors at speed, at tick 0. Where there is a
     /// `trim`, this is not how the flight begins: `analysis::start::state_at` says that.
     pub fn on_wheels(&self, aircraft: &Aircraft) -> State {
         let gear = &aircraft.landing_gear;
         let weights = &aircraft.weight_balance;
-        let weight_n = (weights.zero_fuel_mass_kg + self.fuel_kg) * GRAVITY_MPS2;
+        let weight_n = (weights.zero_fuel_mass_kg + self.fuel_aboard_kg(aircraft)) * GRAVITY_MPS2;
         let sag_m = weight_n / (2.0 * gear.main.stiffness_n_per_m + gear.nose.stiffness_n_per_m);
         let height_m = weights.cg_m.z - gear.main.tyre_m.z - sag_m;
         let rotor_speed_radps = aircraft.fcc.governor.rotor_speed_radps[0];
@@ -149,7 +155,7 @@ impl Start {
                 }),
                 rotors: Pair::both(rotors::State::default()),
                 rotor_speed_radps,
-                fuel_kg: self.fuel_kg,
+                fuel_kg: self.fuel_aboard_kg(aircraft),
                 ..Plant::default()
             },
             ..State::default()
@@ -163,7 +169,7 @@ impl Start {
             step_state(aircraft, &mut state, &Inputs { events: &[], world });
         }
         state.tick = 0;
-        state.plant.fuel_kg = self.fuel_kg;
+        state.plant.fuel_kg = self.fuel_aboard_kg(aircraft);
         state.plant.position_m.x = 0.0;
         state.plant.position_m.y = 0.0;
         state

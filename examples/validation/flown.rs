@@ -53,7 +53,7 @@ fn fly(aircraft: &Aircraft) -> Result<Conversion, String> {
     );
     let start = aircraft::start("scenario.toml", &scenario).map_err(|e| e.to_string())?;
     let corridor = &aircraft.envelope.corridor;
-    let pilot = Pilot::named("convert", &aircraft.cockpit, corridor).ok_or("no such pilot")?;
+    let pilot = Pilot::named("convert", &aircraft.cockpit, &aircraft).ok_or("no such pilot")?;
     let mut flown = Conversion {
         time_s: 0.0,
         inside_mps: f64::INFINITY,

@@ -24,9 +24,8 @@ fn swept(aircraft: &Aircraft, steady: &str) -> Result<Vec<Point>, String> {
     let aircraft = aircraft.clone().with_cockpit(map);
     let scenario = format!("{}\n[trim]\n{steady}\nscas_on = 0\n", aircraft::DEFAULT_SCENARIO);
     let start = aircraft::start("scenario.toml", &scenario).map_err(|e| e.to_string())?;
-    let corridor = &aircraft.envelope.corridor;
     let pilot =
-        Pilot::named("sweep-pitch", &aircraft.cockpit, corridor).ok_or("no such pilot model")?;
+        Pilot::named("sweep-pitch", &aircraft.cockpit, &aircraft).ok_or("no such pilot model")?;
     let signal = |name| Signal::named(name).map_err(|unknown| unknown.to_string());
     let mut record = Record::new(signal("stick_aft")?, signal("pitch_rate")?);
     let mut unrecorded = None;

@@ -25,8 +25,7 @@ fn fly(aircraft: &Aircraft) -> Result<Sidling, String> {
     let aircraft = aircraft.clone().with_cockpit(map);
     let start = aircraft::start("scenario.toml", aircraft::DEFAULT_SCENARIO);
     let start = start.map_err(|e| e.to_string())?;
-    let corridor = &aircraft.envelope.corridor;
-    let pilot = Pilot::named("sideways", &aircraft.cockpit, corridor).ok_or("no such pilot")?;
+    let pilot = Pilot::named("sideways", &aircraft.cockpit, &aircraft).ok_or("no such pilot")?;
     let mut flown = Sidling::default();
     let mut sinks_mps = 0.0;
     let (state, _) = rehearse(&aircraft, &start, vec![Box::new(pilot)], PATIENCE_TICKS, |now| {

@@ -58,10 +58,11 @@ impl Flying {
         let scenario_toml = scenario(values, &aircraft)?;
         let start = aircraft::start("scenario.toml", &scenario_toml).map_err(told)?;
         let fuel_kg_max = aircraft.weight_balance.fuel_kg_max;
-        if start.fuel_kg > fuel_kg_max {
+        if let Some(fuel_kg) = start.fuel_kg
+ && fuel_kg > fuel_kg_max {
             return Err(format!(
                 "fuel_lb: {:.0} kg of fuel: the tanks hold {fuel_kg_max:.0} kg",
-                start.fuel_kg
+                fuel_kg
             ));
         }
         let setup = Setup { aircraft_toml, cockpit_toml, scenario_toml };

@@ -166,7 +166,7 @@ fn asked(given: Option<&Bound<'_, PyDict>>) -> PyResult<Condition> {
             "turn_degps" => asked.turn_degps = number()?,
             "bank_deg" => asked.bank_deg = Some(number()?),
             "sideslip_deg" => asked.sideslip_deg = number()?,
-            "weight_lb" => asked.weight_lb = number()?,
+            "weight_lb" => asked.weight_lb = Some(number()?),
             "altitude_ft" => asked.altitude_ft = number()?,
             "height_ft" => asked.height_ft = Some(number()?),
             "isa_k" => asked.isa_k = number()?,

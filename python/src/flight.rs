@@ -88,10 +88,11 @@ impl Flight {
         };
         let begins = files::start("scenario.toml", &scenario_toml).map_err(told)?;
         let fuel_kg_max = aircraft.params.weight_balance.fuel_kg_max;
-        if begins.fuel_kg > fuel_kg_max {
+        if let Some(fuel_kg) = begins.fuel_kg
+ && fuel_kg > fuel_kg_max {
             return Err(refused(format!(
                 "scenario: fuel of {:.0} kg: the tanks hold {fuel_kg_max:.0} kg",
-                begins.fuel_kg
+                fuel_kg
             )));
         }
         let (aircraft_toml, cockpit_toml) = (aircraft.text().into(), map_toml()?);

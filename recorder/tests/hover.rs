@@ -35,8 +35,7 @@ fn a_hover_in_steady_air_is_quiet() {
             .replace("wind_kt = 0.0", &format!("wind_kt = {wind_kt:?}"))
             .replace("wind_from_deg = 0.0", &format!("wind_from_deg = {from_deg:?}"));
         let start = aircraft::start("scenario.toml", &scenario).unwrap_or_else(|e| panic!("{e}"));
-        let corridor = &xv15.envelope.corridor;
-        let pilot = Pilot::named("hover", &xv15.cockpit, corridor).expect("hover");
+        let pilot = Pilot::named("hover", &xv15.cockpit, &xv15).expect("hover");
         let controllers: Vec<Box<dyn Controller>> = vec![Box::new(pilot)];
         let mut rest: Option<[f64; 3]> = None;
         let (mut moved, mut turning, mut drifting) = (0.0, 0.0, 0.0);

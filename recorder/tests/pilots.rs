@@ -61,8 +61,7 @@ fn aloft(nacelle_deg: f64, speed_kt: f64) -> Start {
 }
 
 fn pilot(name: &str, aircraft: &Aircraft) -> Vec<Box<dyn Controller>> {
-    let corridor = &aircraft.envelope.corridor;
-    vec![Box::new(Pilot::named(name, &aircraft.cockpit, corridor).expect(name))]
+    vec![Box::new(Pilot::named(name, &aircraft.cockpit, aircraft).expect(name))]
 }
 
 /// What is remembered of a flight.

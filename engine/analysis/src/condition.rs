@@ -27,15 +27,16 @@ pub struct Condition {
     pub bank_deg: Option<f64>,
     /// Sideslip, air from the right positive, deg.
     pub sideslip_deg: f64,
-    /// Gross weight, lb.
-    pub weight_lb: f64,
+    /// Gross weight, lb; with full tanks without.
+    pub weight_lb: Option<f64>,
     /// Above mean sea level, ft.
     pub altitude_ft: f64,
     /// Centre of gravity above the ground, ft; the ground is not felt without.
     pub height_ft: Option<f64>,
     /// Warmer than the standard atmosphere by, K.
     pub isa_k: f64,
-    /// Flap lever, one of its detents, deg; without: 40 with nacelles above 75 deg, 20 above 15, else 0.
+    /// Flap lever, one of its detents, deg; without: the one next to 40 with nacelles above 75 deg, to 20 above
+    /// 15, else to 0.
     pub flap_deg: Option<f64>,
     /// Rotor speed, one of those the governor offers, rpm; without: the slowest below 1 deg of nacelle.
     pub rpm: Option<f64>,
@@ -46,7 +47,7 @@ pub struct Condition {
 }
 
 impl Default for Condition {
-    /// Hover as a helicopter at sea level, 13,000 lb, far from the ground.
+    /// Hover as a helicopter at sea level, tanks full, far from the ground.
     fn default() -> Self {
         Self {
             nacelle_deg: 90.0,
@@ -56,7 +57,7 @@ impl Default for Condition {
             turn_degps: 0.0,
             bank_deg: None,
             sideslip_deg: 0.0,
-            weight_lb: 13_000.0,
+            weight_lb: None,
             altitude_ft: 0.0,
             height_ft: None,
             isa_k: 0.0,
@@ -124,7 +125,7 @@ const RANGES: [Range; 13] = [
     range("turn_degps", "deg/s", limits::TURN_DEGPS, |c| Some(c.turn_degps)),
     range("bank_deg", "deg", limits::BANK_DEG, |c| c.bank_deg),
     range("sideslip_deg", "deg", limits::SIDESLIP_DEG, |c| Some(c.sideslip_deg)),
-    range("weight_lb", "lb", limits::WEIGHT_LB, |c| Some(c.weight_lb)),
+    range("weight_lb", "lb", limits::WEIGHT_LB, |c| c.weight_lb),
     range("altitude_ft", "ft", limits::ALTITUDE_FT, |c| Some(c.altitude_ft)),
     range("height_ft", "ft", limits::HEIGHT_FT, |c| c.height_ft),
     range("isa_k", "K", limits::ISA_K, |c| Some(c.isa_k)),
@@ -212,7 +213,7 @@ fn usual_flap_deg(nacelle_deg: f64) -> f64 {
     }
 }
 
-/// The detent of a flap lever position, or of the usual one at a nacelle incidence.
+/// The detent of a flap lever position, or the one next to the usual position at a nacelle incidence.
 ///
 /// # Errors
 /// When the lever has no such detent.
@@ -221,8 +222,14 @@ pub fn flap_detent(
     flap_deg: Option<f64>,
     nacelle_deg: f64,
 ) -> Result<u64, Fault> {
-    let wanted_deg = flap_deg.unwrap_or_else(|| usual_flap_deg(nacelle_deg));
     let offered_deg = aircraft.fcc.mixer.flap_rad.map(|rad| rad * DEG_PER_RAD);
+    let wanted_deg = flap_deg.unwrap_or_else(|| {
+        // Another aircraft has other detents: the one next to what the reference model uses.
+        let usual_deg = usual_flap_deg(nacelle_deg);
+        let nearer =
+            |a: f64, b: f64| if (b - usual_deg).abs() < (a - usual_deg).abs() { b } else { a };
+        offered_deg.into_iter().reduce(nearer).unwrap_or(usual_deg)
+    });
     let detent = offered_deg.iter().position(|deg| (deg - wanted_deg).abs() < 0.5);
     detent.map(|detent| detent as u64).ok_or(Fault::Flap { wanted_deg, offered_deg })
 }
@@ -274,7 +281,10 @@ impl Condition {
     pub fn target(&self, aircraft: &Aircraft) -> Result<(Aircraft, Target), Fault> {
         self.within()?;
         let airspeed_mps = self.speed_kt * KNOT_MPS;
-        let (aircraft, fuel_kg) = weigh(aircraft, self.weight_lb * POUND_KG)?;
+        let (aircraft, fuel_kg) = match self.weight_lb {
+            Some(weight_lb) => weigh(aircraft, weight_lb * POUND_KG)?,
+            None => (aircraft.clone(), aircraft.weight_balance.fuel_kg_max),
+        };
         let target = Target {
             mast_tilt_rad: (90.0 - self.nacelle_deg) / DEG_PER_RAD,
             airspeed_mps,
@@ -357,7 +367,7 @@ mod tests {
                 "speed_kt NaN: expected -60 to 400 kt",
             ),
             (
-                Condition { weight_lb: 1.0, ..Condition::default() },
+                Condition { weight_lb: Some(1.0), ..Condition::default() },
                 "weight_lb 1: expected 2500 to 44000 lb",
             ),
             (

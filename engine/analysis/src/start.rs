@@ -21,7 +21,7 @@ pub fn state_at(start: &Start, aircraft: &Aircraft) -> Result<State, Failure> {
         heading_rad: start.heading_rad,
         altitude_m: flight.altitude_m,
         origin: start.origin,
-        fuel_kg: start.fuel_kg,
+        fuel_kg: start.fuel_aboard_kg(aircraft),
         flap_detent: flight.flap_detent.unwrap_or(start.flap_detent),
         rpm_select: flight.rpm_select,
         gear_down: flight.gear_down,

@@ -1,4 +1,6 @@
 //! Writes FlightGear's XV-15; run as a test it says whether the files in the tree are fresh.
+//!
+//! With an aircraft file and a folder it writes that aircraft's files there, in place of the XV-15's.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,14 +16,23 @@ fn made() -> Vec<File> {
     flightgear_package::files(&aircraft)
 }
 
-fn main() -> std::io::Result<()> {
-    for file in made() {
-        let path = folder().join(&file.path);
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    let (files, folder) = match &arguments[..] {
+        [] => (made(), folder()),
+        [file, folder] => {
+            let aircraft = aircraft::aircraft(file, &fs::read_to_string(file)?)?;
+            (flightgear_package::files(&aircraft), PathBuf::from(folder))
+        }
+        _ => return Err("expected nothing, or an aircraft file and a folder".into()),
+    };
+    for file in files {
+        let path = folder.join(&file.path);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent)?;
         }
         fs::write(&path, &file.bytes)?;
-        println!("{:>8} bytes  {FOLDER}/{}", file.bytes.len(), file.path);
+        println!("{:>8} bytes  {}", file.bytes.len(), path.display());
     }
     Ok(())
 }
@@ -105,6 +116,32 @@ mod tests {
                 let inside = comment.split("-->").next().unwrap_or("");
                 assert!(!inside.contains("--"), "{file}: <!--{inside}-->");
             }
+        }
+    }
+
+    /// How long a part of the model is along the aircraft, m.
+    fn length_m(files: &[File], part: &str) -> f64 {
+        let model = files.iter().find(|file| file.path == "Models/xv15.ac").expect("the model");
+        let text = std::str::from_utf8(&model.bytes).expect("text");
+        let (_, of_part) = text.split_once(&format!("name \"{part}\"")).expect(part);
+        let (_, vertices) = of_part.split_once("numvert ").expect("vertices");
+        let count = vertices.lines().next().and_then(|count| count.parse().ok()).expect("a count");
+        let along = vertices.lines().skip(1).take(count).map(|vertex| {
+            vertex.split(' ').next().and_then(|x| x.parse::<f64>().ok()).expect("a number")
+        });
+        let along: Vec<f64> = along.collect();
+        let least = along.iter().copied().fold(f64::INFINITY, engine::math::min);
+        along.iter().copied().fold(f64::NEG_INFINITY, engine::math::max) - least
+    }
+
+    #[test]
+    fn another_aircraft_has_a_model_of_its_own_size() {
+        let toml = tree("aircraft/generic.toml");
+        let generic = aircraft::aircraft("generic.toml", &toml).expect("an aircraft");
+        let (generic, xv15) = (flightgear_package::files(&generic), made());
+        for part in ["fuselage", "tailplane", "pods", "spinner.left"] {
+            let ratio = length_m(&generic, part) / length_m(&xv15, part);
+            assert!((ratio - 0.8).abs() < 0.01, "{part}: {ratio}");
         }
     }
 

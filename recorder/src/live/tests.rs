@@ -82,7 +82,7 @@ fn a_script_with_more_than_a_thousand_events_a_tick_allocates_nothing() {
 fn a_pilot_model_allocates_nothing() {
     let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap();
     let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
-    let pilot = Pilot::named("hover", &map, &xv15.envelope.corridor).unwrap();
+    let pilot = Pilot::named("hover", &map, &xv15).unwrap();
     assert_eq!(counted("pilot", map, vec![Box::new(pilot)], 1000), 0);
 }
 

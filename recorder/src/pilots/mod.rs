@@ -2,24 +2,28 @@
 //!
 //! What they send are raw device events of the device that the cockpit map calls `pilot`: the path
 //! that hardware takes. They move their hands fifty times a second, and know nothing of the aircraft
-//! but what windows, dials and seat tell, and the corridor on their knee board.
+//! but what windows, dials and seat tell, and the numbers of its handbook.
 
 mod autorotation;
 mod device;
+mod habits;
+mod handbook;
+mod order;
 mod phase;
 mod skill;
 mod sweep;
 
 use engine::cockpit::{self, AxisControl};
-use engine::envelope::Corridor;
 use engine::frames::{Ned, Vec3};
 use engine::outputs::Validity;
-use engine::units::KNOT_MPS;
-use engine::{Outputs, STEP_S};
+use engine::units::{DEGREE_RAD as DEG, KNOT_MPS};
+use engine::{Aircraft, Outputs, STEP_S};
 
 use autorotation::{Autorotation, engines_are_out};
 pub use device::{DEVICE, VirtualDevice};
-use phase::{Nacelles, Order, Phase};
+use handbook::Handbook;
+use order::{Nacelles, Order};
+use phase::{Phase, Speed};
 use skill::{HAND_TICKS, Observation, Positions, Skill};
 use sweep::{Axis, Steady};
 
@@ -29,8 +33,8 @@ use crate::controller::{Controller, GaveUp, TickContext};
 pub const PILOTS: [(&str, &str); 12] = [
     ("hover", "lifts off, hovers at 10 m and keeps hovering"),
     ("demo", "vertical take-off, conversion, left turn, reconversion, landing where it began"),
-    ("takeoff", "lifts off, accelerates as a helicopter to 80 kt and flies on"),
-    ("convert", "the same, then converts and flies on as an aeroplane at 170 kt"),
+    ("takeoff", "lifts off, accelerates to the speed of a conversion as a helicopter and flies on"),
+    ("convert", "the same, then converts and flies on as an aeroplane at its cruise"),
     ("turn", "the same, then turns left on and on"),
     ("reconvert", "begins as an aeroplane (or becomes one), reconverts, hovers"),
     ("land", "comes to a hover from whatever it begins in, and lands"),
@@ -53,22 +57,40 @@ pub fn lands(name: &str) -> bool {
 const FLOWN_M: f64 = 5.0;
 /// Masts that are tilted less are those of a helicopter, rad.
 const UPRIGHT_RAD: f64 = 0.1;
+/// Part of the weight on the wheels with which it stands, and with which it has come down unasked.
+const STANDS_NORM: f64 = 0.5;
+const DOWN_NORM: f64 = 0.7;
+/// Height of a hover, m: what every plan calls one.
+const HOVER_M: f64 = 10.0;
+/// Height above obstacles, where it accelerates, and that of a circuit, m.
+const CLEAR_M: f64 = 60.0;
+const CIRCUIT_M: f64 = 120.0;
+/// Climb of a take-off, m/s: a passenger's.
+const TAKE_OFF_MPS: f64 = 2.0;
+/// Bank of a turn that goes on and on, and of the turn back, rad.
+const TURN_RAD: f64 = 30.0 * DEG;
+const HOME_RAD: f64 = 40.0 * DEG;
+/// Speeds to the side and back, kt: those that flight tests of helicopters fly (35 kt and a part of it).
+const SIDEWAYS_KT: f64 = 35.0;
+const REARWARD_KT: f64 = 20.0;
 
 /// From standing on the runway to flying as a helicopter.
-const TAKE_OFF: [(&str, Phase); 3] = [
-    ("on the ground", Phase::Wait { seconds: 1.0 }),
-    ("take-off", Phase::Rise { height_m: 10.0, climb_mps: 2.0 }),
-    ("acceleration", Phase::Accelerate { knots: 85.0, height_m: 60.0 }),
-];
+fn take_off() -> Vec<(&'static str, Phase)> {
+    vec![
+        ("on the ground", Phase::Wait { seconds: 1.0 }),
+        ("take-off", Phase::Rise { height_m: HOVER_M, climb_mps: TAKE_OFF_MPS }),
+        ("acceleration", Phase::Accelerate { height_m: CLEAR_M }),
+    ]
+}
 
 /// The plan of a pilot model, for a flight that begins on the wheels or in the air.
 fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
     let forever = Phase::Hold { seconds: f64::INFINITY };
-    let mut plan = if on_wheels { TAKE_OFF.to_vec() } else { Vec::new() };
-    let convert = ("conversion", Phase::Convert { knots: 170.0 });
+    let mut plan = if on_wheels { take_off() } else { Vec::new() };
+    let convert = ("conversion", Phase::Convert { to: Speed::Cruise });
     let cruise = ("aeroplane", forever);
     let stop = ("reconversion", Phase::Stop { height_m: None });
-    let descend = ("descent", Phase::Stop { height_m: Some(10.0) });
+    let descend = ("descent", Phase::Stop { height_m: Some(HOVER_M) });
     match name {
         "hover" if on_wheels => {
             plan.truncate(2);
@@ -78,8 +100,7 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
         "takeoff" => plan.push(("helicopter", forever)),
         "convert" => plan.extend([convert, cruise]),
         "turn" => {
-            let bank_rad = 30_f64.to_radians();
-            plan.extend([convert, ("left turn", Phase::Circle { bank_rad })]);
+            plan.extend([convert, ("left turn", Phase::Circle { bank_rad: TURN_RAD })]);
         }
         "reconvert" => plan.extend([convert, cruise_for(5.0), stop, ("hover", forever)]),
         "land" if on_wheels => {
@@ -101,10 +122,10 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
                 plan.splice(2..2, [hover, ("marker", Phase::Mark)]);
             }
             plan.extend([
-                ("conversion", Phase::Convert { knots: 150.0 }),
-                ("climb", Phase::Climb { height_m: 120.0 }),
-                ("left turn", Phase::Home { bank_rad: 40_f64.to_radians() }),
-                ("approach", Phase::Approach { height_m: 10.0 }),
+                ("conversion", Phase::Convert { to: Speed::Circuit }),
+                ("climb", Phase::Climb { height_m: CIRCUIT_M }),
+                ("left turn", Phase::Home { bank_rad: HOME_RAD }),
+                ("approach", Phase::Approach { height_m: HOVER_M }),
                 ("hover turn", Phase::FaceStart),
                 ("hover", Phase::Hold { seconds: 2.0 }),
                 ("landing", Phase::Land),
@@ -133,11 +154,11 @@ fn sidling() -> [(&'static str, Phase); 8] {
     };
     let still = ("to a hover", sidle(0.0, 0.0, 28.0));
     [
-        ("to the right", sidle(0.0, 35.0, 40.0)),
+        ("to the right", sidle(0.0, SIDEWAYS_KT, 40.0)),
         still,
-        ("to the left", sidle(0.0, -35.0, 40.0)),
+        ("to the left", sidle(0.0, -SIDEWAYS_KT, 40.0)),
         still,
-        ("rearward", sidle(-20.0, 0.0, 30.0)),
+        ("rearward", sidle(-REARWARD_KT, 0.0, 30.0)),
         still,
         ("hover", Phase::Hold { seconds: 3.0 }),
         ("landing", Phase::Land),
@@ -151,7 +172,7 @@ fn cruise_for(seconds: f64) -> (&'static str, Phase) {
 /// A pilot model: a list of phases, flown one after the other.
 pub struct Pilot {
     device: VirtualDevice,
-    corridor: Corridor,
+    handbook: Handbook,
     name: &'static str,
     phases: Vec<(&'static str, Phase)>,
     at: usize,
@@ -177,13 +198,12 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// The pilot model of that name, its hands on the map's virtual device, who keeps inside the
-    /// corridor.
-    pub fn named(name: &str, map: &cockpit::Params, corridor: &Corridor) -> Option<Self> {
+    /// The pilot model of that name for an aircraft, its hands on the map's virtual device.
+    pub fn named(name: &str, map: &cockpit::Params, aircraft: &Aircraft) -> Option<Self> {
         let (name, _) = PILOTS.into_iter().find(|(known, _)| *known == name)?;
         Some(Self {
             device: VirtualDevice::of(map)?,
-            corridor: corridor.clone(),
+            handbook: Handbook::of(aircraft),
             name,
             phases: plan(name, true)?,
             at: 0,
@@ -213,7 +233,7 @@ impl Pilot {
         let eyes = Observation::look(seen);
         self.flown |= seen.height_above_ground_m > FLOWN_M;
         let landing = |phase: &(&str, Phase)| phase.1.ends_on_wheels();
-        let down = eyes.on_wheels_norm > 0.7 || seen.validity.contains(Validity::HULL);
+        let down = eyes.on_wheels_norm > DOWN_NORM || seen.validity.contains(Validity::HULL);
         if !(self.flown && down) || self.phases.get(self.at).is_none_or(landing) {
             return;
         }
@@ -259,12 +279,12 @@ impl Pilot {
             Phase::Sweep { axis } => Some((axis, since_s)),
             _ => None,
         };
-        steady.positions(seen, sweep)
+        steady.positions(seen, sweep, &self.handbook.pilot)
     }
 
     fn begin(&mut self, seen: &Outputs) {
         self.started = true;
-        let on_wheels = Observation::look(seen).on_wheels_norm > 0.5;
+        let on_wheels = Observation::look(seen).on_wheels_norm > STANDS_NORM;
         self.phases = plan(self.name, on_wheels).unwrap_or_default();
         self.skill = Skill::taking_over(seen);
         self.order = Order::beginning(seen);

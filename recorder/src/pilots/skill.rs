@@ -16,7 +16,9 @@
 
 use engine::frames::Attitude;
 use engine::math::{atan2, clamp, cos, min, ramp, sin, wrap_angle};
-use engine::{GRAVITY_MPS2, Outputs, STEP_S};
+use engine::{GRAVITY_MPS2, Outputs, STEP_S, pilot};
+
+use super::handbook::Handbook;
 
 /// Ticks between two movements of the hands.
 pub const HAND_TICKS: u64 = 5;
@@ -95,6 +97,8 @@ impl Observation {
     }
 }
 
+/// Slower than this no power is divided by the speed, m/s.
+const STILL_MPS: f64 = 1.0;
 /// Greatest vertical acceleration asked for, m/s².
 const UP_MPS2_MAX: f64 = 2.0;
 /// k_V, 1/s.
@@ -109,12 +113,66 @@ const LEARN_PITCH_PER_S: [f64; 2] = [0.4, 0.8];
 const AT_ONCE: f64 = 0.7;
 /// What is felt is felt with this lag, s.
 const FEEL_S: f64 = 0.25;
-/// Torque of a mast that the pilot does not exceed, N·m: the continuous limit, 130,000 in-lb.
-const TORQUE_N_M_MAX: f64 = 14_690.0;
-/// Angle of attack that the pilot does not exceed when the wing carries, rad.
-const ALPHA_RAD_MAX: f64 = 0.2;
 /// Attitude that the pilot does not exceed, rad.
 const PITCH_RAD_MAX: f64 = 0.3;
+/// Lever that is taken back for a torque beyond the limit, by that part of it, 1/s; how fast it is given
+/// again, 1/s; and what is always left.
+const TORQUE_PER_S: f64 = 0.5;
+const LEVER_AGAIN_PER_S: f64 = 0.05;
+const LEVER_NORM_LEFT: f64 = 0.3;
+/// Off the climb by more than this the lever serves no speed, m/s.
+const CLIMB_FIRST_MPS: f64 = 2.0;
+/// Beyond the middle between hovering and flying: what holds for one holds for the other no longer.
+const HALF: f64 = 0.5;
+/// Part of the weight on the wheels from which on nothing is learned.
+const ON_WHEELS_NORM: f64 = 0.1;
+/// Time in which the stick is let go on the ground, s.
+const LET_GO_S: f64 = 0.7;
+
+/// Pitch: rate by attitude, 1/s, and at most, rad/s; stick by rate, s/rad of its half travel, learned at
+/// that much a second too; and as far as it is held by learning.
+const PITCH_PER_S: f64 = 1.8;
+const PITCH_RADPS_MAX: f64 = 0.2;
+const STICK_BY_PITCH: f64 = 1.8;
+const STICK_AFT_NORM_MAX: f64 = 0.9;
+/// Roll, alike; what is learned a second is less: a roll is over sooner.
+const ROLL_PER_S: f64 = 1.5;
+const ROLL_RADPS_MAX: f64 = 0.35;
+const STICK_BY_ROLL: f64 = 0.9;
+const STICK_BY_ROLL_LEARNED: f64 = 0.4;
+const STICK_RIGHT_NORM_MAX: f64 = 0.6;
+/// Yaw over a spot: rate by heading, 1/s, and at most, rad/s; pedal by the rate that is wanted, and by what
+/// it is off, s/rad; by heading a second, near the heading, 1/(rad·s) and rad.
+const YAW_PER_S: f64 = 0.6;
+const YAW_RADPS_MAX: f64 = 0.2;
+const PEDAL_BY_YAW: f64 = 2.2;
+const PEDAL_BY_YAW_OFF: f64 = 2.5;
+const PEDAL_BY_HEADING_PER_S: f64 = 0.25;
+const NEAR_HEADING_RAD: f64 = 0.15;
+/// Yaw in flight: pedal by the ball, 1/g, and by the turn's rate that is off, s/rad; all of it at once, and
+/// learned a second, 1/s.
+const PEDAL_BY_BALL: f64 = 0.8;
+const PEDAL_BY_TURN_OFF: f64 = 0.5;
+const BALL_AT_ONCE: f64 = 0.9;
+const BALL_LEARNED_PER_S: f64 = 0.3;
+const PEDAL_NORM_MAX: f64 = 0.7;
+/// Bank over a spot: by speed to the side that is off, at once, rad per m/s, and at most, rad; learned a
+/// second, rad/m, at most, rad, and forgotten in flight, s.
+const BANK_BY_SIDE: f64 = 0.04;
+const BANK_RAD_MAX: f64 = 0.2;
+const BANK_BY_SIDE_LEARNED: f64 = 0.006;
+const LEVEL_RAD_MAX: f64 = 0.15;
+const FORGET_S: f64 = 2.0;
+/// Bank in flight: turn by heading, 1/s, and at most, rad/s.
+const TURN_PER_S: f64 = 0.2;
+const TURN_RADPS_MAX: f64 = 0.35;
+/// Nobody throws an aircraft into a turn: fifteen degrees a second, over a spot three times that, rad/s.
+const BANKING_RADPS: [f64; 2] = [0.25, 0.75];
+
+/// How far it flies: 0 as a helicopter over a spot, 1 by bank and heading.
+pub fn flying(seen: &Outputs, book: &pilot::Params) -> f64 {
+    ramp(seen.airspeed_mps, book.over_a_spot_mps_max, book.flying_mps_min)
+}
 
 /// What the hands remember.
 #[derive(Clone, Copy, Debug, Default)]
@@ -148,7 +206,7 @@ impl Skill {
 
     /// Lowers the lever and lets the stick go, on the wheels.
     pub fn settle(&mut self, lower_per_s: f64) -> Positions {
-        let fade = 1.0 - HAND_S / 0.7;
+        let fade = 1.0 - HAND_S / LET_GO_S;
         self.stick_aft_norm *= fade;
         self.stick_right_norm *= fade;
         self.pedal_right_norm *= fade;
@@ -162,12 +220,11 @@ impl Skill {
     }
 
     /// Moves the hands once.
-    pub fn fly(&mut self, seen: &Outputs, aim: &Aim) -> Positions {
+    pub fn fly(&mut self, seen: &Outputs, aim: &Aim, book: &Handbook) -> Positions {
         let eyes = Observation::look(seen);
-        // Below 30 kt it is a helicopter over a spot, above 50 kt something that flies.
-        let flying = if aim.any_way { 0.0 } else { ramp(seen.airspeed_mps, 15.0, 26.0) };
-        let (pitch_rad, lever_norm) = self.pitch_and_lever(seen, &eyes, aim, flying);
-        self.sticks(seen, &eyes, aim, flying, (pitch_rad, lever_norm))
+        let flying = if aim.any_way { 0.0 } else { flying(seen, &book.pilot) };
+        let (pitch_rad, lever_norm) = self.pitch_and_lever(seen, &eyes, (aim, book), flying);
+        self.sticks(seen, (aim, &book.pilot), flying, (pitch_rad, lever_norm))
     }
 
     /// The same with pitch and lever that are known.
@@ -176,61 +233,91 @@ impl Skill {
         seen: &Outputs,
         aim: &Aim,
         (pitch_rad, lever_norm): (f64, f64),
+        book: &Handbook,
     ) -> Positions {
-        let flying = ramp(seen.airspeed_mps, 15.0, 26.0);
         (self.pitch_rad, self.lever_norm) = (pitch_rad, lever_norm);
-        self.sticks(seen, &Observation::look(seen), aim, flying, (pitch_rad, lever_norm))
+        let flying = flying(seen, &book.pilot);
+        self.sticks(seen, (aim, &book.pilot), flying, (pitch_rad, lever_norm))
     }
 
     /// Stick and pedals that serve an attitude.
     fn sticks(
         &mut self,
         seen: &Outputs,
-        eyes: &Observation,
-        aim: &Aim,
+        (aim, book): (&Aim, &pilot::Params),
         flying: f64,
         (pitch_rad, lever_norm): (f64, f64),
     ) -> Positions {
-        let roll_rad = self.roll(seen, eyes, aim, flying);
-        let on_wheels = eyes.on_wheels_norm > 0.1;
+        let eyes = Observation::look(seen);
+        let roll_rad = self.roll(seen, &eyes, aim, flying);
+        let on_wheels = eyes.on_wheels_norm > ON_WHEELS_NORM;
 
         // The faster, the lighter the hand.
         let q_pa = 0.5 * seen.air.density_kg_per_m3 * seen.airspeed_mps * seen.airspeed_mps;
-        let light = 1.0 / (1.0 + q_pa / 1500.0);
+        let light = 1.0 / (1.0 + q_pa / book.half_stick_pa);
         let rate = seen.angular_rate_radps;
-        let pitch_radps = clamp(1.8 * (pitch_rad - seen.euler.pitch_rad), -0.2, 0.2);
+        let pitch_radps = clamp(
+            PITCH_PER_S * (pitch_rad - seen.euler.pitch_rad),
+            -PITCH_RADPS_MAX,
+            PITCH_RADPS_MAX,
+        );
         let turn_radps = flying * GRAVITY_MPS2 * sin(seen.euler.roll_rad)
-            / engine::math::max(seen.airspeed_mps, 15.0);
+            / engine::math::max(seen.airspeed_mps, book.over_a_spot_mps_max);
         let pull_off = pitch_radps + turn_radps * sin(seen.euler.roll_rad) - rate.y;
-        let roll_off = clamp(1.5 * (roll_rad - seen.euler.roll_rad), -0.35, 0.35) - rate.x;
+        let roll_radps =
+            clamp(ROLL_PER_S * (roll_rad - seen.euler.roll_rad), -ROLL_RADPS_MAX, ROLL_RADPS_MAX);
+        let roll_off = roll_radps - rate.x;
         let learn = if on_wheels { 0.0 } else { HAND_S };
-        self.stick_aft_norm =
-            clamp(self.stick_aft_norm + 1.8 * light * pull_off * learn, -0.9, 0.9);
-        self.stick_right_norm = clamp(self.stick_right_norm + 0.4 * roll_off * learn, -0.6, 0.6);
+        self.stick_aft_norm = clamp(
+            self.stick_aft_norm + STICK_BY_PITCH * light * pull_off * learn,
+            -STICK_AFT_NORM_MAX,
+            STICK_AFT_NORM_MAX,
+        );
+        self.stick_right_norm = clamp(
+            self.stick_right_norm + STICK_BY_ROLL_LEARNED * roll_off * learn,
+            -STICK_RIGHT_NORM_MAX,
+            STICK_RIGHT_NORM_MAX,
+        );
+        let (spot_foot, ball_foot) = self.feet(seen, aim, flying, (turn_radps, learn));
+        Positions {
+            stick_aft_norm: self.stick_aft_norm + STICK_BY_PITCH * light * pull_off,
+            stick_right_norm: self.stick_right_norm + STICK_BY_ROLL * roll_off,
+            pedal_right_norm: self.pedal_right_norm
+                + (1.0 - flying) * spot_foot
+                + flying * BALL_AT_ONCE * ball_foot,
+            lever_norm,
+        }
+    }
+
+    /// What the feet do at once over a spot, and in flight; what they have learned is kept.
+    fn feet(
+        &mut self,
+        seen: &Outputs,
+        aim: &Aim,
+        flying: f64,
+        (turn_radps, learn): (f64, f64),
+    ) -> (f64, f64) {
+        let rate = seen.angular_rate_radps;
 
         // Slow: the nose by pedals. Fast: the ball in the middle.
         let heading_off = wrap_angle(aim.heading_rad - seen.euler.heading_rad);
-        let yaw_radps = clamp(0.6 * heading_off, -0.2, 0.2);
-        let spot_foot = 2.2 * yaw_radps + 2.5 * (yaw_radps - rate.z);
+        let yaw_radps = clamp(YAW_PER_S * heading_off, -YAW_RADPS_MAX, YAW_RADPS_MAX);
+        let spot_foot = PEDAL_BY_YAW * yaw_radps + PEDAL_BY_YAW_OFF * (yaw_radps - rate.z);
         let ball = -seen.specific_force_mps2.y / GRAVITY_MPS2;
-        let ball_foot = 0.8 * ball + 0.5 * (turn_radps - rate.z);
-        let slow = 1.0 - flying;
-        let nearly = if heading_off.abs() < 0.15 { heading_off } else { 0.0 };
-        let learned_foot = slow * 0.25 * nearly + flying * 0.3 * ball_foot;
-        self.pedal_right_norm = clamp(self.pedal_right_norm + learned_foot * learn, -0.7, 0.7);
-        Positions {
-            stick_aft_norm: self.stick_aft_norm + 1.8 * light * pull_off,
-            stick_right_norm: self.stick_right_norm + 0.9 * roll_off,
-            pedal_right_norm: self.pedal_right_norm + slow * spot_foot + flying * 0.9 * ball_foot,
-            lever_norm,
-        }
+        let ball_foot = PEDAL_BY_BALL * ball + PEDAL_BY_TURN_OFF * (turn_radps - rate.z);
+        let nearly = if heading_off.abs() < NEAR_HEADING_RAD { heading_off } else { 0.0 };
+        let learned_foot = (1.0 - flying) * PEDAL_BY_HEADING_PER_S * nearly
+            + flying * BALL_LEARNED_PER_S * ball_foot;
+        self.pedal_right_norm =
+            clamp(self.pedal_right_norm + learned_foot * learn, -PEDAL_NORM_MAX, PEDAL_NORM_MAX);
+        (spot_foot, ball_foot)
     }
 
     fn pitch_and_lever(
         &mut self,
         seen: &Outputs,
         eyes: &Observation,
-        aim: &Aim,
+        (aim, book): (&Aim, &Handbook),
         flying: f64,
     ) -> (f64, f64) {
         let feel = HAND_S / FEEL_S;
@@ -249,8 +336,8 @@ impl Skill {
         let up_mps2 = clamp(climb_per_s * climb_off_mps, -UP_MPS2_MAX, UP_MPS2_MAX);
 
         let tilt_rad = seen.actuators.mast_tilt_rad.mean();
-        let learned = ControlEffectiveness::at(seen, tilt_rad);
-        self.watch_torque(seen);
+        let learned = ControlEffectiveness::at(seen, tilt_rad, &book.pilot);
+        self.watch_torque(seen, book.torque_n_m_max);
         let (mut at_once_rad, at_once_norm) =
             learned.hands(AT_ONCE * forward_mps2, AT_ONCE * up_mps2);
         let up_off_mps2 = up_mps2 - self.felt_up_mps2;
@@ -259,22 +346,22 @@ impl Skill {
         let at_end = (lever_norm >= self.lever_norm_max && off.1 > 0.0)
             || (lever_norm <= 0.0 && off.1 < 0.0);
         // Height before speed: the lever helps no speed while the height goes the other way.
-        if flying > 0.5 && climb_off_mps.abs() > 2.0 && off.1 * climb_off_mps < 0.0 {
+        if flying > HALF && climb_off_mps.abs() > CLIMB_FIRST_MPS && off.1 * climb_off_mps < 0.0 {
             off.1 = 0.0;
         }
-        if at_end && seen.airspeed_mps > 40.0 {
+        if at_end && seen.airspeed_mps > book.pilot.wing_borne_mps_min {
             // No lever left: the wing carries, and the speed is what it is.
             at_once_rad = AT_ONCE * up_mps2 / learned.lift_mps2;
             off.0 = up_off_mps2 / learned.lift_mps2;
         }
-        let on_wheels = eyes.on_wheels_norm > 0.1;
+        let on_wheels = eyes.on_wheels_norm > ON_WHEELS_NORM;
         let learn_lever_per_s =
             LEARN_LEVER_PER_S[0] + flying * (LEARN_LEVER_PER_S[1] - LEARN_LEVER_PER_S[0]);
         let learn_per_s =
             LEARN_PITCH_PER_S[0] + flying * (LEARN_PITCH_PER_S[1] - LEARN_PITCH_PER_S[0]);
         if !on_wheels {
-            let alpha_left_rad = ALPHA_RAD_MAX - seen.alpha_rad;
-            let highest_rad = if flying > 0.5 {
+            let alpha_left_rad = book.pilot.alpha_rad_max - seen.alpha_rad;
+            let highest_rad = if flying > HALF {
                 min(PITCH_RAD_MAX, seen.euler.pitch_rad + alpha_left_rad)
             } else {
                 PITCH_RAD_MAX
@@ -297,32 +384,36 @@ impl Skill {
     }
 
     /// Takes the lever back from where the masts' torque or the rotors' speed is beyond its limit.
-    fn watch_torque(&mut self, seen: &Outputs) {
-        let torque = seen.engines.torque_n_m.sum() * 0.5 / TORQUE_N_M_MAX;
-        let step = if torque > 1.0 { -0.5 * (torque - 1.0) } else { 0.05 } * HAND_S;
-        self.lever_norm_max = clamp(self.lever_norm_max + step, 0.3, 1.0);
+    fn watch_torque(&mut self, seen: &Outputs, torque_n_m_max: f64) {
+        let torque = seen.engines.torque_n_m.sum() * 0.5 / torque_n_m_max;
+        let step_per_s =
+            if torque > 1.0 { -TORQUE_PER_S * (torque - 1.0) } else { LEVER_AGAIN_PER_S };
+        self.lever_norm_max =
+            clamp(self.lever_norm_max + step_per_s * HAND_S, LEVER_NORM_LEFT, 1.0);
     }
 
     /// Bank: to the side when slow, to the heading when fast.
     fn roll(&mut self, seen: &Outputs, eyes: &Observation, aim: &Aim, flying: f64) -> f64 {
         let right_off = aim.right_mps - eyes.right_mps;
         let slow = 1.0 - flying;
-        if eyes.on_wheels_norm < 0.1 {
-            self.roll_level_rad =
-                clamp(self.roll_level_rad + slow * 0.006 * right_off * HAND_S, -0.15, 0.15);
-            self.roll_level_rad *= 1.0 - flying * HAND_S / 2.0;
+        if eyes.on_wheels_norm < ON_WHEELS_NORM {
+            self.roll_level_rad = clamp(
+                self.roll_level_rad + slow * BANK_BY_SIDE_LEARNED * right_off * HAND_S,
+                -LEVEL_RAD_MAX,
+                LEVEL_RAD_MAX,
+            );
+            self.roll_level_rad *= 1.0 - flying * HAND_S / FORGET_S;
         }
-        let hover_rad = clamp(0.04 * right_off, -0.2, 0.2);
+        let hover_rad = clamp(BANK_BY_SIDE * right_off, -BANK_RAD_MAX, BANK_RAD_MAX);
         let heading_off = wrap_angle(aim.heading_rad - seen.euler.heading_rad);
-        let turn_radps = clamp(0.2 * heading_off, -0.35, 0.35);
+        let turn_radps = clamp(TURN_PER_S * heading_off, -TURN_RADPS_MAX, TURN_RADPS_MAX);
         let bank_rad = clamp(
             atan2(seen.airspeed_mps * turn_radps, GRAVITY_MPS2),
             -aim.bank_rad_max,
             aim.bank_rad_max,
         );
         let wanted_rad = slow * hover_rad + flying * bank_rad;
-        // Nobody throws an aircraft into a turn: fifteen degrees a second, over a spot three times that.
-        let most_rad = if slow > 0.5 { 0.75 } else { 0.25 } * HAND_S;
+        let most_rad = BANKING_RADPS[usize::from(slow > HALF)] * HAND_S;
         self.roll_rad += clamp(wanted_rad - self.roll_rad, -most_rad, most_rad);
         self.roll_level_rad + self.roll_rad
     }
@@ -338,13 +429,14 @@ struct ControlEffectiveness {
 }
 
 impl ControlEffectiveness {
-    fn at(seen: &Outputs, tilt_rad: f64) -> Self {
+    fn at(seen: &Outputs, tilt_rad: f64, book: &pilot::Params) -> Self {
         let v = seen.airspeed_mps;
         let q_pa = 0.5 * seen.air.density_kg_per_m3 * v * v;
         // The same power is less thrust the faster the air goes through the rotors.
-        let lever_mps2 = min(9.0, 330.0 / engine::math::max(v, 1.0));
+        let lever_mps2 =
+            min(book.lever_mps2, book.lever_w_per_kg / engine::math::max(v, STILL_MPS));
         Self {
-            lift_mps2: 0.014 * q_pa,
+            lift_mps2: book.lift_m2_per_kg_rad * q_pa,
             along_mps2: lever_mps2 * sin(tilt_rad),
             up_mps2: lever_mps2 * cos(tilt_rad),
         }

@@ -14,10 +14,10 @@
 //! control it is a part of the input that is recorded, and takes nothing from the response; on the others
 //! it is slow and small, and what is identified is with it. As an aeroplane only attitude is held.
 
-use engine::Outputs;
 use engine::math::{PI, clamp, cos, exp, ln, min, ramp, sin, wrap_angle};
+use engine::{Outputs, pilot};
 
-use super::skill::{Observation, Positions};
+use super::skill::{Observation, Positions, flying};
 
 /// Lowest and highest frequency, rad/s.
 const BAND_RADPS: [f64; 2] = [0.2, 15.0];
@@ -35,8 +35,20 @@ const LEVER_NORM: f64 = 0.03;
 /// Part of it over a spot from 1 rad/s on, and less in proportion below: slow movements sway a hover far,
 /// .3 in of stick at .3 rad/s by 9 kt and 16 deg, and its derivatives are others at 2 kt already.
 const OVER_A_SPOT: f64 = 0.25;
-/// Dynamic pressure at which half of everything does, Pa.
-const LIGHT_PA: f64 = 1500.0;
+/// The hold's gains, each in flight and what is added over a spot: k_θ and k_φ, 1/rad, k_q and k_p, s/rad.
+const PITCH: [f64; 2] = [0.4, 0.8];
+const PITCH_RATE: [f64; 2] = [0.3, 0.7];
+const ROLL: [f64; 2] = [0.35, 0.65];
+const ROLL_RATE: [f64; 2] = [0.2, 0.6];
+/// k_ψ, 1/rad, and k_r, s/rad, over a spot only.
+const HEADING: f64 = 0.9;
+const YAW_RATE: f64 = 1.5;
+/// k_h, 1/m, and k_ḣ, s/m, as far as the masts are upright.
+const HEIGHT: f64 = 0.015;
+const CLIMB: f64 = 0.02;
+/// Attitude by speed over a spot, k_u and k_v, rad per m/s, and bank by heading in flight.
+const LEAN_BY_SPEED: f64 = 0.02;
+const BANK_BY_HEADING: f64 = 0.5;
 /// Attitude that the hold asks for because of a speed, rad.
 const LEAN_RAD_MAX: f64 = 0.1;
 
@@ -128,33 +140,40 @@ impl Steady {
     }
 
     /// Where the hands go to keep it, with so much of a sweep.
-    pub fn positions(&self, seen: &Outputs, sweep: Option<(Axis, f64)>) -> Positions {
+    pub fn positions(
+        &self,
+        seen: &Outputs,
+        sweep: Option<(Axis, f64)>,
+        book: &pilot::Params,
+    ) -> Positions {
         let eyes = Observation::look(seen);
-        let slow = 1.0 - ramp(seen.airspeed_mps, 15.0, 26.0);
+        let slow = 1.0 - flying(seen, book);
+        let gain = |[fast, over_a_spot]: [f64; 2]| fast + over_a_spot * slow;
         let upright = cos(seen.actuators.mast_tilt_rad.mean());
         let q_pa = 0.5 * seen.air.density_kg_per_m3 * seen.airspeed_mps * seen.airspeed_mps;
-        let light = 1.0 / (1.0 + q_pa / LIGHT_PA);
+        let light = 1.0 / (1.0 + q_pa / book.half_stick_pa);
         let (euler, rate) = (seen.euler, seen.angular_rate_radps);
 
         let lean = |by_rad: f64| clamp(by_rad, -LEAN_RAD_MAX, LEAN_RAD_MAX);
-        let nose_rad = lean(0.02 * slow * (eyes.forward_mps - self.forward_mps));
+        let nose_rad = lean(LEAN_BY_SPEED * slow * (eyes.forward_mps - self.forward_mps));
         let heading_off_rad = wrap_angle(self.heading_rad - euler.heading_rad);
         let bank_rad = lean(
-            0.5 * (1.0 - slow) * heading_off_rad - 0.02 * slow * (eyes.right_mps - self.right_mps),
+            BANK_BY_HEADING * (1.0 - slow) * heading_off_rad
+                - LEAN_BY_SPEED * slow * (eyes.right_mps - self.right_mps),
         );
         let mut to = Positions {
             stick_aft_norm: self.hands.stick_aft_norm
                 + light
-                    * ((0.4 + 0.8 * slow) * (self.pitch_rad + nose_rad - euler.pitch_rad)
-                        - (0.3 + 0.7 * slow) * rate.y),
+                    * (gain(PITCH) * (self.pitch_rad + nose_rad - euler.pitch_rad)
+                        - gain(PITCH_RATE) * rate.y),
             stick_right_norm: self.hands.stick_right_norm
                 + light
-                    * ((0.35 + 0.65 * slow) * (self.roll_rad + bank_rad - euler.roll_rad)
-                        - (0.2 + 0.6 * slow) * rate.x),
+                    * (gain(ROLL) * (self.roll_rad + bank_rad - euler.roll_rad)
+                        - gain(ROLL_RATE) * rate.x),
             pedal_right_norm: self.hands.pedal_right_norm
-                + slow * (0.9 * heading_off_rad - 1.5 * rate.z),
+                + slow * (HEADING * heading_off_rad - YAW_RATE * rate.z),
             lever_norm: self.hands.lever_norm
-                + upright * (0.015 * (self.height_m + seen.position_m.z) - 0.02 * eyes.climb_mps),
+                + upright * (HEIGHT * (self.height_m + seen.position_m.z) - CLIMB * eyes.climb_mps),
         };
         if let Some((axis, time_s)) = sweep {
             let part = OVER_A_SPOT * min(1.0, frequency_radps(time_s));

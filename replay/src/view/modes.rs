@@ -65,6 +65,9 @@ const CAUTION: u32 = 0xE0_9A_20_FF;
 const ALARM: u32 = 0xD0_40_38_FF;
 const GREEN: u32 = 0x30_90_60_FF;
 
+/// The flap lever's detents; their angles are the aircraft's.
+const DETENTS: [&str; 4] = ["up", "first detent", "second detent", "last detent"];
+
 /// What a model is that is outside none of its limits.
 const WITHIN: &str = "within its data";
 
@@ -99,7 +102,12 @@ pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
         ),
         Mode::new(
             "modes/flaps",
-            &[("0°", QUIET), ("20°", 0x2A_5C_90_FF), ("40°", ACTIVE), ("75°", 0x58_A8_F0_FF)],
+            &[
+                (DETENTS[0], QUIET),
+                (DETENTS[1], 0x2A_5C_90_FF),
+                (DETENTS[2], ACTIVE),
+                (DETENTS[3], 0x58_A8_F0_FF),
+            ],
             flaps,
         ),
         Mode::new(
@@ -148,12 +156,8 @@ fn gear(Seen { outputs, .. }: Seen) -> &'static str {
 }
 
 fn flaps(seen: Seen) -> &'static str {
-    match seen.outputs.cockpit.flap_detent {
-        0 => "0°",
-        1 => "20°",
-        2 => "40°",
-        _ => "75°",
-    }
+    let detent = usize::try_from(seen.outputs.cockpit.flap_detent).unwrap_or(usize::MAX);
+    DETENTS[detent.min(DETENTS.len() - 1)]
 }
 
 fn scas(seen: Seen) -> &'static str {

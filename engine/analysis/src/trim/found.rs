@@ -23,7 +23,7 @@ pub struct Trim {
 pub enum Failure {
     /// No steady flight was found.
     Unsteady {
-        /// The largest in the best trial, in its unit.
+        /// The largest in the best trial; an inner state's rate counts by its weight, see [`Residual::left`].
         residual: f64,
         /// Of what; nothing where there was no trial.
         of: Option<Residual>,
@@ -46,15 +46,20 @@ impl core::fmt::Display for Failure {
         match self {
             Self::Unsteady { residual, of } => {
                 f.write_str("no steady flight found")?;
-                let Some(of) = of else { return Ok(()) };
-                write!(f, ": {of} is left with {residual:.2e}")?;
-                let unit = of.unit();
-                if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
+                if let Some(of) = of {
+                    let (left, unit) = (of.left(*residual), of.unit());
+                    write!(f, ": {of} is left with {left:.2e} {unit} in the best trial")?;
+                }
+                f.write_str(
+                    "; begin with a flight that trims, and change speed, nacelles, flaps or climb in \
+                     small steps",
+                )
             }
             Self::Beyond { what, wanted_norm, .. } => {
                 write!(
                     f,
-                    "beyond the aircraft: {what} at {:.0} % of its limit",
+                    "beyond the aircraft: {what} at {:.0} % of its limit; ask for less weight, speed, climb or \
+                     turn, or for another flap or rotor speed",
                     100.0 * wanted_norm
                 )
             }
@@ -64,3 +69,38 @@ impl core::fmt::Display for Failure {
 }
 
 impl core::error::Error for Failure {}
+
+#[cfg(test)]
+mod tests {
+    use alloc::string::ToString;
+
+    use super::super::residual::Equation;
+    use super::*;
+    use crate::variable::Inner;
+
+    #[test]
+    fn a_failure_tells_how_much_is_left_in_which_unit_and_what_to_do() {
+        let told = |residual, of| Failure::Unsteady { residual, of }.to_string();
+        let way_out = "; begin with a flight that trims, and change speed, nacelles, flaps or climb in \
+                       small steps";
+        assert_eq!(
+            told(0.0119, Some(Residual::Equation(Equation::Down))),
+            "no steady flight found: acceleration down is left with 1.19e-2 m/s² in the best trial"
+                .to_string()
+                + way_out
+        );
+        // .02 of the rate is what counts.
+        assert_eq!(
+            told(0.0119, Some(Residual::Inner(Inner::Downwash))),
+            "no steady flight found: the rate of plant.horizontal_stabilizer.downwash_rad is left with \
+             5.95e-1 rad/s in the best trial"
+                .to_string()
+                + way_out
+        );
+        assert_eq!(told(f64::MAX, None), "no steady flight found".to_string() + way_out);
+        for inner in Inner::of_plant() {
+            let unit = Residual::Inner(inner).unit();
+            assert!(unit.contains("/s"), "{inner}: {unit}");
+        }
+    }
+}

@@ -10,13 +10,10 @@ use engine::{STEP_S, State, step};
 use super::found::{Failure, Trim};
 use super::problem::{Outer, Problem, Trial, Unknown};
 use super::report::{Report, beyond};
-use super::residual::Residual;
+use super::residual::{INNER_WEIGHT, Residual};
 use super::target::Power;
 use crate::Matrix;
 use crate::solve::solve;
-
-/// Inner states are fast: their rates are large where their effect is small.
-const INNER_WEIGHT: f64 = 0.02;
 
 /// Below this an acceleration is rounding.
 const STEADY: f64 = 1e-8;

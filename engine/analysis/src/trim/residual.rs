@@ -1,5 +1,6 @@
 //! What must vanish in steady flight.
 
+use alloc::string::ToString;
 use core::fmt;
 
 use crate::variable::Inner;
@@ -49,6 +50,13 @@ impl Equation {
     }
 }
 
+/// Inner states are fast: their rates are large where their effect is small.
+pub(super) const INNER_WEIGHT: f64 = 0.02;
+
+/// Ends of inner states' names, and the units of their rates.
+const RATES: [(&str, &str); 4] =
+    [("_rad", "rad/s"), ("_radps", "rad/s²"), ("_mps", "m/s²"), ("_w", "W/s")];
+
 /// What is left of a flight that is not steady.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Residual {
@@ -59,11 +67,22 @@ pub enum Residual {
 }
 
 impl Residual {
-    /// Its unit; nothing for inner states, whose rates are weighed.
+    /// Its unit: for an inner state that of its rate.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Equation(equation) => equation.words().1,
-            Self::Inner(_) => "",
+            Self::Inner(inner) => {
+                let name = inner.to_string();
+                RATES.iter().find(|(end, _)| name.ends_with(end)).map_or("1/s", |(_, unit)| unit)
+            }
+        }
+    }
+
+    /// How much is left, in its unit: of an inner state the rate without its weight.
+    pub fn left(self, residual: f64) -> f64 {
+        match self {
+            Self::Equation(_) => residual,
+            Self::Inner(_) => residual / INNER_WEIGHT,
         }
     }
 }
@@ -72,7 +91,7 @@ impl fmt::Display for Residual {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Equation(equation) => f.write_str(equation.words().0),
-            Self::Inner(inner) => inner.fmt(f),
+            Self::Inner(inner) => write!(f, "the rate of {inner}"),
         }
     }
 }
