@@ -207,7 +207,8 @@ impl Instance {
             ));
         }
         let now_s = self.start_s + flying.stepped.state.tick as f64 * STEP_S;
-        if !((from_s - now_s).abs() <= BESIDE_TICKS * STEP_S * (1.0 + 1e-3 * now_s.abs())) {
+        let beside_s = (from_s - now_s).abs();
+        if beside_s.is_nan() || beside_s > BESIDE_TICKS * STEP_S * (1.0 + 1e-3 * now_s.abs()) {
             return Err(format!(
                 "communication point {from_s} s: the flight is at {now_s} s; to go back, set the FMU state"
             ));
