@@ -106,6 +106,21 @@ fn root() -> PathBuf {
     }
 }
 
+/// The commit, and whether the sources are not as committed: by git, or by the file of a source distribution, which may
+/// lie in a repository that is none of ours.
+fn commit(sources: &[&str]) -> (String, String) {
+    let unknown = || "unknown".to_string();
+    if said_by("git", &["ls-files", "--error-unmatch", "--", "provenance/Cargo.toml"]).is_some() {
+        let commit = said_by("git", &["rev-parse", "--short=12", "HEAD"]);
+        let changes = said_by("git", &[&STATUS[..], sources].concat());
+        let dirty = changes.map(|changes| (!changes.is_empty()).to_string());
+        return (commit.unwrap_or_else(unknown), dirty.unwrap_or_else(unknown));
+    }
+    let told = fs::read_to_string("COMMIT").unwrap_or_default();
+    let mut words = told.split_whitespace().map(str::to_string);
+    (words.next().unwrap_or_else(unknown), words.next().unwrap_or_else(unknown))
+}
+
 /// Tells the compiler, and with it the program, what it is built from: the sources of all, and its own, whose paths
 /// begin at the tree's root.
 pub fn tell(own: &[&str]) {
@@ -115,9 +130,7 @@ pub fn tell(own: &[&str]) {
     let sources = [own, &SOURCES].concat();
     describe();
     let unknown = || "unknown".to_string();
-    let commit = said_by("git", &["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(unknown);
-    let dirty = said_by("git", &[&STATUS[..], &sources[..]].concat())
-        .map_or_else(unknown, |changes| (!changes.is_empty()).to_string());
+    let (commit, dirty) = commit(&sources);
     let rustc = env::var("RUSTC")
         .ok()
         .and_then(|rustc| said_by(&rustc, &["--version"]))
