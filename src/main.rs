@@ -14,6 +14,7 @@ mod diff;
 mod doctor;
 mod flightgear;
 mod fly;
+mod fmu;
 mod ground;
 mod identify;
 mod identity;
@@ -90,6 +91,8 @@ enum Command {
     Doctor(doctor::Args),
     /// Start FlightGear with our aircraft, and wait until it is ready.
     Flightgear(flightgear::Args),
+    /// The XV-15 as an FMU for Simulink and other tools, packed from the library beside the program.
+    Fmu(fmu::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),
     /// Completions of verbs and options for a shell, on standard output.
@@ -151,6 +154,7 @@ fn run(command: Command) -> anyhow::Result<Status> {
         Command::Identify(args) => identify::run(&args),
         Command::Doctor(args) => doctor::run(&args),
         Command::Flightgear(args) => flightgear::run(&args),
+        Command::Fmu(args) => fmu::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Completions(args) => completions::run(&args, whole()),
         Command::Man(args) => completions::man(&args, whole()),

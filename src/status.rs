@@ -54,6 +54,7 @@ const VERBS: &[(&str, &[Status])] = &[
     ("doctor", &[Done, Unusable]),
     ("linearize", &[Done, Unusable, NotConverged]),
     ("identify", &[Done, Differs, Unusable, NeverClosed]),
+    ("fmu", &[Done, Unusable]),
     ("completions", &[Done, Unusable]),
     ("man", &[Done, Unusable]),
 ];
@@ -76,7 +77,6 @@ impl Status {
     }
 
     /// The one of that number; what is none is no result.
-    #[cfg(feature = "rerun")]
     pub fn of_number(number: u8) -> Self {
         Self::ALL.into_iter().find(|status| status.number() == number).unwrap_or(Unusable)
     }
@@ -118,13 +118,7 @@ impl Status {
 
 impl From<Outcome> for Status {
     fn from(outcome: Outcome) -> Self {
-        match outcome {
-            Outcome::Exact | Outcome::NotReflown => Done,
-            Outcome::Altered | Outcome::Diverged | Outcome::OutputsDiffer => Differs,
-            Outcome::Damaged | Outcome::Unusable => Unusable,
-            Outcome::NeverClosed => NeverClosed,
-            Outcome::Compared => Compared,
-        }
+        Self::of_number(outcome.status())
     }
 }
 

@@ -33,11 +33,14 @@ step determinism "the same bits by every build and processor at hand, 64-bit Arm
     'if command -v qemu-aarch64 aarch64-linux-gnu-gcc >/dev/null; then export TILTROTOR_AARCH64=build; fi
     tests/determinism.sh whole'
 step cross "other systems' programs" "tests/cross.sh"
+step fmu-windows "the FMU's Windows library beside that for Linux" 'tests/fmu_windows.sh ${TILTROTOR:-}'
 step verify-speed "how fast a log is verified" 'benches/verify_speed.sh ${TILTROTOR:-}'
 step jsbsim "a tick beside JSBSim's" "benches/jsbsim_ratio.sh"
 step second-simulator "the task and steady flight in a second simulator, JSBSim" 'tests/second_simulator.sh ${TILTROTOR:-}'
 step python-ratio "a tick from Python beside one in Rust" "tests/python.sh && benches/python_ratio.sh"
 step clusters "Dask, shards and DuckDB over many flights, as docs/clusters.md shows them" 'tests/python.sh ${TILTROTOR:-} && tests/clusters.sh'
+step sdist "the Python package's source distribution, built from nothing else" 'tests/sdist.sh ${TILTROTOR:-}'
+step notebooks "the notebooks of python/notebooks, from top to bottom" 'tests/python.sh ${TILTROTOR:-} && tests/notebooks.sh ${TILTROTOR:-}'
 step pilot-matrix "every pilot model from every start that the command offers" tests/pilot_matrix.sh
 step pilots "pilot models in wind and turbulence" tests/pilots.sh
 step ten-thousand "ten thousand random flights" "nice -n 15 tests/ten_thousand.sh"

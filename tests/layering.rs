@@ -19,10 +19,14 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("flightgear", &["engine"]),
     ("flightgear-package", &["aircraft", "engine"]),
     ("logs", &["engine"]),
+    ("provenance", &[]),
     ("recorder", &["aircraft", "analysis", "engine", "flightgear", "logs"]),
     ("replay", &["aircraft", "analysis", "chart", "engine", "logs"]),
-    ("tiltrotor-fmi", &["aircraft", "analysis", "engine", "logs", "recorder"]),
-    ("tiltrotor-python", &["aircraft", "analysis", "engine", "logs", "recorder", "replay"]),
+    ("tiltrotor-fmi", &["aircraft", "analysis", "engine", "logs", "provenance", "recorder"]),
+    (
+        "tiltrotor-python",
+        &["aircraft", "analysis", "engine", "logs", "provenance", "recorder", "replay"],
+    ),
 ];
 
 /// Crates of others that one crate of ours alone may know.

@@ -11,8 +11,8 @@ use logs::fields::{Value as Number, fields};
 use logs::{Setup, cdr};
 use recorder::{End, Moment, Stepped};
 
-use crate::instance::Values;
 use crate::provenance::identity;
+use crate::values::Values;
 use crate::variables::{Target, axes, table};
 
 /// A flight, and what of the inputs was last applied to it.

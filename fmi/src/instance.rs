@@ -5,7 +5,8 @@ use logs::cdr;
 use recorder::End;
 
 use crate::flying::{Flying, Kept, told};
-use crate::variables::{Role, Target, Value, Variable, place, table};
+use crate::values::Values;
+use crate::variables::{Role, Target, Value, Variable, table};
 
 /// The most that a communication point may be beside a tick, in ticks: what tools sum up in steps of doubles.
 const BESIDE_TICKS: f64 = 1e-3;
@@ -24,57 +25,6 @@ enum Phase {
     Flying,
     /// Over.
     Terminated,
-}
-
-/// The values of parameters and inputs, by their places in the table.
-#[derive(Clone, Debug)]
-pub struct Values(Vec<Value>);
-
-impl Default for Values {
-    fn default() -> Self {
-        Self(table().iter().map(|variable| variable.start.clone()).collect())
-    }
-}
-
-impl Values {
-    fn named(&self, name: &str) -> Option<&Value> {
-        place(name).and_then(|place| self.0.get(place))
-    }
-
-    /// A number, by its name in the table.
-    pub fn real(&self, name: &str) -> f64 {
-        match self.named(name) {
-            Some(Value::Real(value)) => *value,
-            _ => 0.0,
-        }
-    }
-
-    /// A switch, by its name in the table.
-    pub fn flag(&self, name: &str) -> bool {
-        place(name).is_some_and(|place| self.flag_at(place))
-    }
-
-    /// A switch, by its place in the table.
-    pub fn flag_at(&self, place: usize) -> bool {
-        matches!(self.0.get(place), Some(Value::Boolean(true)))
-    }
-
-    /// A text, by its name in the table.
-    pub fn text(&self, name: &str) -> &str {
-        match self.named(name) {
-            Some(Value::Text(value)) => value,
-            _ => "",
-        }
-    }
-
-    /// A command to the actuators, by its place among them.
-    pub fn command(&self, command: usize) -> f64 {
-        let place = table().iter().position(|v| v.target == Target::Command(command));
-        match place.and_then(|place| self.0.get(place)) {
-            Some(Value::Real(value)) => *value,
-            _ => 0.0,
-        }
-    }
 }
 
 /// A copy of an instance, to which it can be set back.
@@ -207,7 +157,8 @@ impl Instance {
             ));
         }
         let now_s = self.start_s + flying.stepped.state.tick as f64 * STEP_S;
-        if !((from_s - now_s).abs() <= BESIDE_TICKS * STEP_S * (1.0 + 1e-3 * now_s.abs())) {
+        let beside_s = (from_s - now_s).abs();
+        if beside_s.is_nan() || beside_s > BESIDE_TICKS * STEP_S * (1.0 + 1e-3 * now_s.abs()) {
             return Err(format!(
                 "communication point {from_s} s: the flight is at {now_s} s; to go back, set the FMU state"
             ));

@@ -13,4 +13,5 @@ mod handle;
 pub mod instance;
 mod provenance;
 mod units;
+mod values;
 pub mod variables;

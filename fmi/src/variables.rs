@@ -12,7 +12,7 @@ use engine::inputs::Failures;
 use logs::fields::{Value as Number, fields};
 use logs::units::unit_of;
 
-/// What is said of the fields of every public struct, by `build.rs` from the sources.
+/// What is said of the fields of every public struct, by `provenance` from the sources.
 type Described = (&'static str, &'static [(&'static str, &'static str)]);
 static DESCRIBED: &[Described] = include!(concat!(env!("OUT_DIR"), "/descriptions.rs"));
 

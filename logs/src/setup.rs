@@ -134,3 +134,18 @@ impl Identity {
         }
     }
 }
+
+/// The identity of the program that calls it: a name, and what its build script was told by `provenance`.
+#[macro_export]
+macro_rules! identity {
+    ($program:literal) => {
+        $crate::Identity::new()
+            .with("program", concat!($program, " ", env!("CARGO_PKG_VERSION")))
+            .with("commit", env!("TILTROTOR_COMMIT"))
+            .with("dirty", env!("TILTROTOR_DIRTY"))
+            .with("compiler", env!("TILTROTOR_RUSTC"))
+            .with("target", env!("TILTROTOR_TARGET"))
+            .with("target_features", env!("TILTROTOR_TARGET_FEATURES"))
+            .with("profile", env!("TILTROTOR_PROFILE"))
+    };
+}

@@ -112,6 +112,12 @@ impl Verdict {
         }
     }
 
+    /// The exit status of the command for a log like that.
+    #[getter]
+    fn status(&self) -> u8 {
+        Outcome::from_name(&self.outcome).unwrap_or(Outcome::Unusable).status()
+    }
+
     fn __bool__(&self) -> bool {
         self.outcome == Outcome::Exact.name()
     }

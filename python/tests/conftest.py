@@ -81,12 +81,12 @@ def command() -> Command:
 
 @pytest.fixture(scope="session")
 def judged(command: Command) -> Callable[[Path], dict[str, Any]]:
-    """What the command's `verify` says of a log."""
+    """What the command's `verify` says of a log, and its exit status."""
 
     def judge(log: Path) -> dict[str, Any]:
         said = command("verify", "--format", "json", log)
         report: dict[str, Any] = json.loads(said.stdout)
-        return dict(report["logs"][0])
+        return {**report["logs"][0], "exit status": said.returncode}
 
     return judge
 

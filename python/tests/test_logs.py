@@ -80,6 +80,7 @@ def _same(judged, log: Path) -> str:
         assert (verdict.last_tick, verdict.diverged_tick) == (report["last_tick"], report["diverged_tick"])
         assert (verdict.digest, verdict.end) == (report["digest"], report["end"]["reason"])
         assert verdict.field == (report["divergence"] or {}).get("field")
+    assert verdict.status == report["exit status"]
     assert bool(verdict) == (report["outcome"] == "exact")
     assert pickle.loads(pickle.dumps(verdict)) == verdict
     return verdict.outcome
@@ -88,6 +89,11 @@ def _same(judged, log: Path) -> str:
 @pytest.mark.parametrize("log", KEPT, ids=lambda log: log.stem)
 def test_of_every_kept_log_the_verdict_is_the_commands(judged, log):
     _same(judged, log)
+
+
+def test_command_and_package_are_of_one_version(command):
+    assert command("--version").stdout.split()[1] == tiltrotor.__version__
+    assert tiltrotor.BUILD.startswith(f"{tiltrotor.__version__} (commit ")
 
 
 def test_of_every_broken_log_the_verdict_is_the_commands(judged, tmp_path, hover):

@@ -64,6 +64,22 @@ impl Outcome {
             Self::Unusable => "unusable",
         }
     }
+
+    /// The one of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|outcome| outcome.name() == name)
+    }
+
+    /// The exit status with which a program ends that judged one log, as `docs/exit-statuses.md` has it.
+    pub fn status(self) -> u8 {
+        match self {
+            Self::Exact | Self::NotReflown => 0,
+            Self::Altered | Self::Diverged | Self::OutputsDiffer => 1,
+            Self::Damaged | Self::Unusable => 2,
+            Self::NeverClosed => 3,
+            Self::Compared => 6,
+        }
+    }
 }
 
 /// What a log is.

@@ -19,7 +19,7 @@ use super::ended::ended;
 use crate::status::Status;
 
 /// What is said of the fields of every public struct: its name, and each field with its doc comment, in order.
-/// Made of the sources by `build.rs`, so that a field and what is said of it stand in one place.
+/// Made of the sources by `provenance`, so that a field and what is said of it stand in one place.
 type Described = (&'static str, &'static [(&'static str, &'static str)]);
 static DESCRIBED: &[Described] = include!(concat!(env!("OUT_DIR"), "/descriptions.rs"));
 

@@ -102,6 +102,9 @@ class Verdict:
     """How its reading ended: closed, window, never_closed, recovered, damaged, disorder."""
     digest: str | None
     """Of the last tick read, 16 hexadecimal digits."""
+    @property
+    def status(self) -> int:
+        """The exit status of ``tiltrotor verify``: 0 exact, 1 differs, 2 unusable, 3 never closed, 6 compared."""
     def __bool__(self) -> bool: ...
     def __eq__(self, other: object) -> bool: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
