@@ -4,8 +4,8 @@ use engine::STEP_NS;
 use engine::aircraft::Params as Aircraft;
 use rerun::sink::LogSink;
 use rerun::{
-    RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult,
-    TimeColumn,
+    MediaType, RecordingStream, RecordingStreamBuilder, RecordingStreamError,
+    RecordingStreamResult, TextDocument, TimeColumn,
 };
 
 use super::basics::SIM_TIME;
@@ -31,12 +31,16 @@ pub struct About {
     pub title: String,
     /// Of the same recording the same; of any other, another one.
     pub recording_id: String,
+    /// Of each flight, when it was flown, in words; empty where that is not known.
+    pub flown: Vec<String>,
 }
 
 /// What is drawn on.
 pub struct Canvas {
     /// The recording.
     pub recording: RecordingStream,
+    /// What it is called.
+    pub about: About,
     /// First and last tick drawn.
     pub span: Option<(u64, u64)>,
     layout: Layout,
@@ -67,7 +71,14 @@ impl Canvas {
             .iter()
             .try_for_each(|(look, aircraft)| send_static_scene(&recording, look, aircraft))?;
         blueprint::send(&recording, BEGUN, (&layout, &plan), "", None)?;
-        Ok(Self { recording, span: None, layout, plan, error: None })
+        Ok(Self { recording, about: about.clone(), span: None, layout, plan, error: None })
+    }
+
+    /// Writes a page that does not move, in Markdown.
+    pub fn write(&mut self, entity: &str, page: String) {
+        let document = TextDocument::new(page).with_media_type(MediaType::markdown());
+        let sent = self.recording.log_static(entity, &document);
+        self.keep(sent);
     }
 
     /// Sends rows of an entity.

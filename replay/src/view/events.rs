@@ -16,8 +16,21 @@ pub const LANE: &str = "modes/events";
 
 /// An event is seen in its lane for so long, s, unless the next one comes.
 const SEEN_S: f64 = 4.0;
-/// Of a long flight for this part of it, so that it is seen at all.
-const SEEN_NORM: f64 = 0.05;
+/// Of a long flight for this part of it, so that there is room for its words.
+const SEEN_NORM: f64 = 0.12;
+
+/// Something that happened.
+#[derive(Clone, Copy, Debug)]
+pub struct Happened<'a> {
+    /// When.
+    pub tick: u64,
+    /// How much it matters.
+    pub level: Severity,
+    /// What.
+    pub words: &'a str,
+    /// The so-manieth event of the log it is, from 1, as `--at event:N` counts.
+    pub number: Option<u64>,
+}
 
 /// What happened in a flight.
 #[derive(Default)]
@@ -49,21 +62,18 @@ impl Events {
     }
 
     /// Notes an event in the list, and for the lane.
-    pub fn add(
-        &mut self,
-        canvas: &mut Canvas,
-        look: &Look,
-        tick: u64,
-        level: Severity,
-        text: &str,
-    ) {
-        let words = format!("{}{text}", look.name);
+    ///
+    /// It begins with its number: in a lane there is room for that, however soon the next one comes.
+    pub fn add(&mut self, canvas: &mut Canvas, look: &Look, happened: Happened) {
+        let Happened { tick, level, words: text, number } = happened;
+        let number = number.map_or_else(String::new, |number| format!("{number} "));
+        let words = format!("{}{number}{text}", look.name);
         let columns = TextLog::new(words)
             .with_level(level.name())
             .columns_of_unit_batches()
             .map(Vec::from_iter);
         canvas.send(&look.entity(LIST), &times(&[tick]), columns);
-        self.all.push((tick, level, short(text).into()));
+        self.all.push((tick, level, format!("{number}{}", short(text))));
     }
 
     /// Writes the lane.

@@ -1,7 +1,9 @@
 //! How the viewer arranges a flight.
 //!
 //! ```text
-//! ┌──────────────────┬──────────────────┐
+//! ┌────────────┬────────────────────────┐
+//! │ which it is│ numbers at the cursor  │
+//! ├────────────┴─────┬──────────────────┤
 //! │ 3D, following    │ plots, in tabs   │
 //! │ the aircraft     │                  │
 //! ├──────────────────┤                  │
@@ -60,21 +62,28 @@ impl Layout {
 
     /// The arrangement.
     pub fn tree(&self, plan: &Plan) -> Part {
-        match self {
+        let below = match self {
             Self::Pilot => pilot(plan),
             Self::Engineer => engineer(plan),
             Self::Rotor => rotor(plan),
             Self::Latency => latency(plan),
             Self::Compare => compare(plan),
-            Self::Own(own) => own.tree(plan),
-        }
+            Self::Own(own) => return own.tree(plan),
+        };
+        let share = if plan.is_comparison() { 4.6 } else { 6.2 };
+        down("Review", &[1.0, share], vec![above(), below])
     }
+}
+
+/// Which flight it is, and numbers at the cursor.
+fn above() -> Part {
+    across("Above", &[2.0, 5.0], vec![view(Shown::Heading), view(Shown::Numbers)])
 }
 
 /// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::parts::RAW) is all axes.
 type Tab = (&'static str, &'static [&'static str]);
 
-const FLIGHT: Tab = ("Flight", &["height", "airspeed", "nacelle", "attitude", "pilot"]);
+const FLIGHT: Tab = ("Flight", &["height", "airspeed", "nacelle", "attitude"]);
 const MOTION: Tab = ("Motion", &["heading", "rates", "climb", "flow", "load_factor"]);
 const CONTROLS: Tab = ("Control chain", &["raw", "pilot", "scas", "elevator", "flaperons"]);
 const BLADES: Tab =
@@ -202,8 +211,19 @@ fn latency(plan: &Plan) -> Part {
     )
 }
 
-/// Graphs that are compared; times of ticks are the machine's, not the flight's.
-const COMPARED: [Tab; 8] = [FLIGHT, MOTION, CONTROLS, ROTORS, BLADES, ENGINES, LOADS, GEAR];
+/// Graphs that are compared, with room for the legends of two; times of ticks are the machine's, not the flight's.
+const COMPARED: [Tab; 10] = [
+    FLIGHT,
+    ("Controls", &["pilot", "scas", "elevator", "flaperons"]),
+    ("Motion", &["heading", "rates", "climb", "load_factor"]),
+    ("Rotors", &["rotor_speed", "thrust", "torque", "blade_loading"]),
+    ("Blades", &["collective", "cyclic", "flapping_aft", "flapping_outboard"]),
+    ("Engines", &["power", "fuel_flow", "fuel"]),
+    ("Forces", &["force_x", "force_z", "moment_pitch"]),
+    ("Moments", &["moment_roll", "moment_yaw", "flow"]),
+    ("Gear", &["gear_push", "gear_compression", "gear_extension", "wind"]),
+    ("More", &["inflow", "coning", "stalled", "raw"]),
+];
 
 fn compare(plan: &Plan) -> Part {
     let pairs = COMPARED.iter().map(|(name, graphs)| {

@@ -137,7 +137,16 @@ pub fn configuration(outputs: &Outputs) -> (&'static str, u32) {
     }
 }
 
+/// Nacelles, flaps and gear in words.
+pub fn words(outputs: &Outputs) -> [&'static str; 3] {
+    [configuration(outputs).0, flaps_of(outputs), gear_of(outputs)]
+}
+
 fn gear(Seen { outputs, .. }: Seen) -> &'static str {
+    gear_of(outputs)
+}
+
+fn gear_of(outputs: &Outputs) -> &'static str {
     let on_wheels = outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
     match outputs.actuators.gear_extension_norm {
         _ if on_wheels => "on the ground",
@@ -147,8 +156,12 @@ fn gear(Seen { outputs, .. }: Seen) -> &'static str {
     }
 }
 
-fn flaps(seen: Seen) -> &'static str {
-    match seen.outputs.cockpit.flap_detent {
+fn flaps(Seen { outputs, .. }: Seen) -> &'static str {
+    flaps_of(outputs)
+}
+
+fn flaps_of(outputs: &Outputs) -> &'static str {
+    match outputs.cockpit.flap_detent {
         0 => "0°",
         1 => "20°",
         2 => "40°",

@@ -74,6 +74,10 @@ pub enum Shown {
         /// Whether it says which line is which.
         legend: bool,
     },
+    /// Which flight it is, and what it is worth.
+    Heading,
+    /// Numbers at the cursor.
+    Numbers,
     /// A page of text.
     Document {
         /// Of the view.
