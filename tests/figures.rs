@@ -63,6 +63,7 @@ fn figures_have_titles_axes_units_and_moments() {
         ("controls", "Power lever, % of travel"),
         ("rotors", "Rotor speed, rpm"),
         ("corridor", "Calibrated airspeed, kt"),
+        ("corridor", "least margin: "),
     ] {
         let svg = read(&out.join(format!("landing-{name}.svg")));
         for words in [words, "touchdown", "landing.mcap", "<title id="] {
@@ -80,9 +81,11 @@ fn two_flights_are_told_apart_by_the_names_of_their_logs() {
     tiltrotor(&["plot", text(&a), "--against", text(&b)]).ends(OK);
     for name in ["trajectory", "plan", "euler", "corridor", "latency"] {
         let svg = read(&out.join(format!("calm-longer-{name}.svg")));
-        for words in [">calm.mcap", ">longer.mcap", "#154a8c", "#d55e00"] {
+        for words in [">calm.mcap", ">longer.mcap", "#4a4a4a", "#c7158b"] {
             assert!(svg.contains(words), "{name} lacks `{words}`");
         }
+        let strip = svg.contains("longer.mcap less calm.mcap, deg");
+        assert_eq!(strip, name == "euler", "{name}: a strip of differences");
     }
 }
 
@@ -202,5 +205,9 @@ fn a_crash_is_named_in_events_summary_and_report() {
     assert!(page.contains("CRASH, hull on the ground at "), "the verdict");
     assert!(page.contains("<td>ERROR</td>"), "the event");
     tiltrotor(&["plot", text(&log), "--figure", "profile"]).ends(OK);
-    assert!(read(&out.join("crash-profile.svg")).contains("impact"));
+    let profile = read(&out.join("crash-profile.svg"));
+    // The red of what failed is on the disc of the impact.
+    for words in ["impact", "CRASH at ", "Roll φ, deg", "Pitch θ, deg", "#c21f1f"] {
+        assert!(profile.contains(words), "{words}");
+    }
 }

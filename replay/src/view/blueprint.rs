@@ -7,7 +7,7 @@
 use engine::STEP_NS;
 use rerun::blueprint::components::{
     ActiveTab, BackgroundKind, ColumnShare, ContainerKind, Corner2D, Eye3DKind, LinkAxis,
-    PanelState, RowShare, ViewClass,
+    PanelState, PlayState, RowShare, ViewClass,
 };
 use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
@@ -293,9 +293,13 @@ impl Page<'_> {
         let closed = PanelBlueprint::new().with_state(PanelState::Collapsed);
         self.stream.log("blueprint_panel", &closed)?;
         self.stream.log("selection_panel", &closed)?;
-        let time = TimePanelBlueprint::new()
+        let mut time = TimePanelBlueprint::new()
             .with_state(PanelState::Collapsed)
             .with_timeline(TimelineName(super::basics::SIM_TIME.into()));
+        if span.is_none() {
+            // Of a flight that goes on the latest is shown.
+            time = time.with_play_state(PlayState::Following);
+        }
         self.stream.log("time_panel", &time)?;
         let all = format!("view/{}/TimeAxis", hyphenated(Uuid { bytes: ALL_VIEWS }));
         self.stream.log(all, &TimeAxis::new().with_view_range(whole(span, self.plan)))
