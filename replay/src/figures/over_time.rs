@@ -217,8 +217,8 @@ fn panel(shown: &Shown, flights: &[&Flight]) -> Panel {
 
 /// Height of a strip of differences.
 const STRIP: f64 = 34.0;
-/// It has this part of the range at least that the quantity itself has.
-const STRIP_NORM: f64 = 0.02;
+/// It has this part of the range at least that the quantity itself has: what is less is rounding.
+const STRIP_NORM: f64 = 1e-4;
 
 /// The second flight less the first, where both are.
 fn difference(shown: &Shown, first: &Flight, second: &Flight) -> Panel {
@@ -241,9 +241,25 @@ fn difference(shown: &Shown, first: &Flight, second: &Flight) -> Panel {
             vec![line("left", Dash::Solid, left), line("right", Dash::Dashed, right)]
         }
     };
-    let title = format!("{} less {}{}", second.name, first.name, unit(shown.title));
+    let unit = unit(shown.title);
+    let title = format!("{} less {}{unit}; {}", second.name, first.name, largest(&curves));
     let least = STRIP_NORM * shown.least;
     Panel { height: STRIP, with: vec![0.0], ..Panel::new(title, least, curves) }
+}
+
+/// The largest difference of some curves, and when it is.
+fn largest(curves: &[Curve]) -> String {
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let farther = |most: [f64; 2], next: &[f64; 2]| {
+        if next[1].abs() > most[1].abs() { *next } else { most }
+    };
+    match points.fold([0.0; 2], farther) {
+        [_, apart] if apart.abs() <= 0.0 => "the same".into(),
+        [at_s, apart] => {
+            let digits = if apart.abs() < 0.01 { 5 } else { 2 };
+            format!("largest {} at {at_s:.2} s", chart::with_minus(format!("{apart:.digits$}")))
+        }
+    }
 }
 
 /// Rows of the same time.

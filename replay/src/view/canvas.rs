@@ -20,6 +20,9 @@ use super::still::send_static_scene;
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
 
+/// Rows that are waited for.
+const ROWS_SETTLED: usize = 256;
+
 /// Editions of a layout: for a flight that never ends, and for one that is over.
 const BEGUN: u8 = 1;
 const OVER: u8 = 2;
@@ -87,6 +90,11 @@ impl Canvas {
             self.recording.send_columns(entity, times.iter().cloned(), columns)
         });
         self.keep(sent);
+        // Many rows are written before the next ones are made: of a long flight they would wait in memory, all
+        // entities of them. What cannot be written is told at the end.
+        if times.iter().any(|times| times.num_rows() >= ROWS_SETTLED) {
+            let _ = self.recording.flush_blocking();
+        }
     }
 
     /// Notes that a tick is drawn.

@@ -230,7 +230,7 @@ pub fn scale() -> impl AsComponents + use<> {
     ];
     let up = |(_, length_m, _): (&str, f64, u32)| [0.0, 0.0, -length_m as f32];
     Arrows3D::from_vectors(LENGTHS.map(up))
-        .with_origins([[-5.0, 6.0, 3.5], [-6.2, 5.2, 3.5]])
+        .with_origins([[-5.5, 7.0, -0.5], [-5.5, 7.0, 2.2]])
         .with_radii([0.06])
         .with_colors(LENGTHS.map(|(_, _, colour)| colour))
         .with_labels(LENGTHS.map(|(words, ..)| words))

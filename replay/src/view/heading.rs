@@ -62,17 +62,21 @@ impl Facts {
         Some(format!("CRASH at {:.2} s: {words}", tick as f64 * STEP_S))
     }
 
+    /// What is told in bold of one that ended before its end.
+    fn crash(&self) -> Option<String> {
+        let (tick, words) = self.crash?;
+        Some(format!("**CRASH at {}: {words}. Nothing after it means anything.**", at(tick)))
+    }
+
     /// The lines below a flight's name.
     fn lines(&self, flown: &str) -> Vec<String> {
         let mut lines = Vec::new();
-        lines.extend(self.crash.map(|(tick, words)| {
-            format!("**CRASH at {}: {words}. Nothing after it means anything.**", at(tick))
-        }));
+        lines.extend(self.crash());
         let length = self.span.map(|(first, last)| {
             format!("{:.1} to {:.1} s", first as f64 * STEP_S, last as f64 * STEP_S)
         });
         let pace = (self.timed && !self.in_real_time)
-            .then(|| "not in real time: nothing was due, nothing could be late".to_string());
+            .then(|| "not in real time: no tick was due, none is late".to_string());
         let first = [Some(flown.to_string()), length, pace];
         let first: Vec<String> =
             first.into_iter().flatten().filter(|words| !words.is_empty()).collect();
@@ -93,7 +97,7 @@ pub fn send(canvas: &mut Canvas, look: &Look, facts: &Facts) {
 
 fn alone(about: &About, facts: &Facts) -> String {
     let flown = about.flown.first().map_or("", String::as_str);
-    let name = format!("### {} · {}", escaped(&about.title), escaped(&facts.aircraft));
+    let name = format!("**{} · {}**", escaped(&about.title), escaped(&facts.aircraft));
     page(name, facts.lines(flown))
 }
 
@@ -105,17 +109,19 @@ pub fn send_two(canvas: &mut Canvas, flights: [(&Look, &Facts); 2]) {
     for (of, (look, facts)) in flights.into_iter().enumerate() {
         let flown = canvas.about.flown.get(of).map_or("", String::as_str);
         let name = escaped(look.name.trim_end_matches(": "));
-        let told = facts.lines(flown).join(" · ");
-        lines.push(format!("**{name}**, {}: {} · {told}", LINES[of], escaped(&facts.aircraft)));
+        let told = [Some(escaped(&facts.aircraft)), Some(flown.to_string()), facts.crash()];
+        let told: Vec<String> =
+            told.into_iter().flatten().filter(|words| !words.is_empty()).collect();
+        lines.push(format!("**{name}** ({}): {}", LINES[of], told.join(" · ")));
     }
-    let name = format!("### {}", escaped(&canvas.about.title));
+    let name = format!("**{}**", escaped(&canvas.about.title));
     canvas.write(HEADING, page(name, lines));
 }
 
-/// In Markdown, a paragraph a line.
+/// In Markdown, a line each: there is little room.
 fn page(name: String, lines: Vec<String>) -> String {
     let all: Vec<String> = std::iter::once(name).chain(lines).collect();
-    all.join("\n\n")
+    all.join("  \n")
 }
 
 /// What Markdown would take for its own: a log may be called anything.

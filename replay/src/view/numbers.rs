@@ -38,7 +38,6 @@ const READ: &[Number] = &[
     number("nacelles, deg", 1, |o| 90.0 - degrees(o.actuators.mast_tilt_rad.mean())),
     number("lever, %", 0, |o| 100.0 * o.cockpit.collective_norm),
     number("rotors, rpm", 0, |o| o.rotor_speed_radps * RPM_PER_RADPS),
-    number("thrust, kN", 1, |o| 1e-3 * o.rotors.map(|rotor| rotor.thrust_n).sum()),
     number("power, kW", 0, |o| 1e-3 * o.engines.power_w.sum()),
 ];
 
@@ -48,7 +47,7 @@ fn head(page: &mut String, first: &str) {
     READ.iter().for_each(|number| {
         let _ = write!(page, " {} |", number.name);
     });
-    page.push_str(" flies as | flaps | gear |\n|---|");
+    page.push_str(" as | flaps | gear |\n|---|");
     page.push_str(&"---|".repeat(READ.len() + 3));
     page.push('\n');
 }
@@ -162,7 +161,7 @@ mod tests {
         assert_eq!(of("time, s"), "**2.00**");
         assert_eq!(of("height, m"), "12.3");
         assert_eq!(of("heading, deg"), "350");
-        assert_eq!(of("flies as"), "helicopter");
+        assert_eq!(of("as"), "helicopter");
     }
 
     #[test]

@@ -23,7 +23,7 @@ use super::modes::{MODES, Seen};
 use super::numbers::{self, NUMBERS, Pages, ROWS_PER_PAGE};
 use super::plots::{GRAPHS, Graph, TIMES};
 use super::raw::Raw;
-use super::scene::{PathPoint, moving_columns};
+use super::scene::{PathPoint, send_moving};
 use super::still::{send_crash, send_path};
 use crate::judgement::Judgement;
 
@@ -165,6 +165,7 @@ impl Track {
         let happened =
             Happened { tick: outputs.tick, level: Severity::Error, words: &words, number: None };
         self.event(canvas, happened);
+        self.events.end(outputs.tick, &words);
         let label = self.facts.crash_words().unwrap_or_default();
         let sent = send_crash(&canvas.recording, &self.look, outputs, &label);
         canvas.keep(sent);
@@ -310,10 +311,9 @@ impl Track {
     fn send_motion(&self, canvas: &mut Canvas, rows: &[Outputs]) {
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
         let times = times(&ticks);
-        for (entity, columns) in moving_columns(rows, &self.mounts, &self.places, self.look.ground)
-        {
+        send_moving(rows, &self.mounts, &self.places, self.look.ground, |entity, columns| {
             canvas.send(&self.look.entity(entity), &times, columns);
-        }
+        });
         canvas.send(&self.look.entity(corridor::NOW), &times, corridor::columns(rows));
     }
 
