@@ -76,7 +76,7 @@ impl Facts {
             format!("{:.1} to {:.1} s", first as f64 * STEP_S, last as f64 * STEP_S)
         });
         let pace = (self.timed && !self.in_real_time)
-            .then(|| "not in real time: no tick was due, none is late".to_string());
+            .then(|| "not in real time, so never late".to_string());
         let first = [Some(flown.to_string()), length, pace];
         let first: Vec<String> =
             first.into_iter().flatten().filter(|words| !words.is_empty()).collect();

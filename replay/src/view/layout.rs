@@ -70,14 +70,14 @@ impl Layout {
             Self::Compare => compare(plan),
             Self::Own(own) => return own.tree(plan),
         };
-        let share = if plan.is_comparison() { 4.6 } else { 6.2 };
+        let share = if plan.is_comparison() { 4.8 } else { 6.7 };
         down("Review", &[1.0, share], vec![above(), below])
     }
 }
 
 /// Which flight it is, and numbers at the cursor.
 fn above() -> Part {
-    across("Above", &[1.0, 2.0], vec![view(Shown::Heading), view(Shown::Numbers)])
+    across("Above", &[1.0, 2.2], vec![view(Shown::Heading), view(Shown::Numbers)])
 }
 
 /// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::parts::RAW) is all axes.
@@ -166,7 +166,7 @@ fn pilot(plan: &Plan) -> Part {
         &[11.0, 10.0],
         vec![
             down("Where", &[5.0, 3.0, 2.0], left),
-            down("When", &[11.0, 12.0], vec![plots, lanes()]),
+            down("When", &[11.7, 11.3], vec![plots, lanes()]),
         ],
     )
 }
@@ -179,7 +179,7 @@ fn engineer(plan: &Plan) -> Part {
         &[2.0, 3.0],
         vec![
             down("Where", &[3.0, 2.0, 2.0], left),
-            down("When", &[11.0, 12.0], vec![tabs(plan, &all), lanes()]),
+            down("When", &[11.7, 11.3], vec![tabs(plan, &all), lanes()]),
         ],
     )
 }
@@ -196,7 +196,7 @@ fn rotor(plan: &Plan) -> Part {
         &[1.0, 2.0],
         vec![
             down("Where", &[3.0, 2.0, 2.0], left),
-            down("When", &[11.0, 12.0], vec![plots, lanes()]),
+            down("When", &[11.7, 11.3], vec![plots, lanes()]),
         ],
     )
 }
@@ -207,7 +207,7 @@ fn latency(plan: &Plan) -> Part {
     across(
         "Latency",
         &[5.0, 2.0],
-        vec![down("When", &[11.0, 12.0], left), down("Where", &[1.0, 1.0], right)],
+        vec![down("When", &[11.7, 11.3], left), down("Where", &[1.0, 1.0], right)],
     )
 }
 
