@@ -26,7 +26,7 @@ use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStre
 
 use super::layout::Layout;
 use super::parts::{Part, Plan, Shown};
-use super::{corridor, heading, numbers};
+use super::{corridor, parts};
 
 /// How much of the line behind the aircraft is bright.
 const FLOWN_NS: i64 = 30_000_000_000;
@@ -126,11 +126,11 @@ impl Page<'_> {
                 self.view("StateTimeline", name, "/", &queries, &[("TimeAxis", &axis)])
             }
             Shown::Plot { title, queries, legend } => self.plot(title, queries, *legend),
-            Shown::Heading => self.document("Flight", &format!("/{}", heading::HEADING)),
+            Shown::Heading => self.document("Flight", &format!("/{}", parts::HEADING)),
             Shown::Numbers if self.plan.is_comparison() => {
-                self.document("Both at the cursor", &format!("/{}", numbers::NUMBERS_OF_TWO))
+                self.document("Both at the cursor", &format!("/{}", parts::NUMBERS_OF_TWO))
             }
-            Shown::Numbers => self.document("At the cursor", &format!("/{}", numbers::NUMBERS)),
+            Shown::Numbers => self.document("At the cursor", &format!("/{}", parts::NUMBERS)),
             Shown::Document { name, entity } => self.document(name, entity),
         }
     }

@@ -8,9 +8,7 @@ use logs::text::at;
 
 use super::canvas::{About, Canvas};
 use super::look::Look;
-
-/// Entity of the page.
-pub const HEADING: &str = "heading";
+use super::parts::HEADING;
 
 /// What is told of a flight above it.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -9,10 +9,6 @@ use rerun::{MediaType, RecordingStream, RecordingStreamResult, TextDocument};
 use super::canvas::{Canvas, times};
 use super::modes;
 
-/// Entity of a flight's table.
-pub const NUMBERS: &str = "numbers";
-/// Entity of that of two.
-pub const NUMBERS_OF_TWO: &str = "delta/numbers";
 /// Of so many rows one is told: five a second, as fast as anybody reads.
 pub const ROWS_PER_PAGE: u64 = 10;
 
