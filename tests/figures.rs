@@ -80,9 +80,11 @@ fn two_flights_are_told_apart_by_the_names_of_their_logs() {
     tiltrotor(&["plot", text(&a), "--against", text(&b)]).ends(OK);
     for name in ["trajectory", "plan", "euler", "corridor", "latency"] {
         let svg = read(&out.join(format!("calm-longer-{name}.svg")));
-        for words in [">calm.mcap", ">longer.mcap", "#154a8c", "#d55e00"] {
+        for words in [">calm.mcap", ">longer.mcap", "#4a4a4a", "#c7158b"] {
             assert!(svg.contains(words), "{name} lacks `{words}`");
         }
+        let strip = svg.contains("longer.mcap less calm.mcap, deg");
+        assert_eq!(strip, name == "euler", "{name}: a strip of differences");
     }
 }
 
@@ -201,6 +203,12 @@ fn a_crash_is_named_in_events_summary_and_report() {
     let page = read(&out.join("crash.html"));
     assert!(page.contains("CRASH, hull on the ground at "), "the verdict");
     assert!(page.contains("<td>ERROR</td>"), "the event");
-    tiltrotor(&["plot", text(&log), "--figure", "profile"]).ends(OK);
-    assert!(read(&out.join("crash-profile.svg")).contains("impact"));
+    tiltrotor(&["plot", text(&log), "--figure", "profile", "corridor"]).ends(OK);
+    // Upright at 100 kt and more it is too fast, and the least margin is none.
+    assert!(read(&out.join("crash-corridor.svg")).contains("least margin: −"));
+    let profile = read(&out.join("crash-profile.svg"));
+    // The red of what failed is on the disc of the impact.
+    for words in ["impact", "CRASH at ", "Roll φ, deg", "Pitch θ, deg", "#c21f1f"] {
+        assert!(profile.contains(words), "{words}");
+    }
 }

@@ -19,12 +19,12 @@ for name in trajectory euler corridor; do
     cp "$work/demo-$name.svg" "docs/pictures/review_$name.svg"
 done
 
-# The same hands on pedals that are geared otherwise.
+# The same hands, with a weaker hold of the pitch attitude.
 fly=(fly --pilot convert --fast --no-flightgear --duration 90)
 "$tiltrotor" "${fly[@]}" --out "$work/calm.mcap" || [ $? = 4 ]
-"$tiltrotor" whatif "$work/calm.mcap" --set fcc.travel.pedal_in=2 --out "$work/pedals.mcap"
-"$tiltrotor" plot "$work/calm.mcap" --against "$work/pedals.mcap" --out "$work" --figure euler
-cp "$work/calm-pedals-euler.svg" docs/pictures/review_against.svg
+"$tiltrotor" whatif "$work/calm.mcap" --set fcc.scas.pitch.attitude_gain_in_per_rad=0.9 --out "$work/weaker.mcap"
+"$tiltrotor" plot "$work/calm.mcap" --against "$work/weaker.mcap" --out "$work" --figure euler
+cp "$work/calm-weaker-euler.svg" docs/pictures/review_against.svg
 
 printf '[[event]]\nat_s = 1.0\naxis = { stick_right = 1.0 }\n' >"$work/roll.toml"
 "$tiltrotor" fly --script "$work/roll.toml" --from-trim --speed-kt 100 --altitude-ft 400 --duration 8 --fast \
@@ -33,30 +33,72 @@ printf '[[event]]\nat_s = 1.0\naxis = { stick_right = 1.0 }\n' >"$work/roll.toml
 cp "$work/crash-profile.svg" docs/pictures/review_crash.svg
 
 viewing=${2:-target/release/tiltrotor}
-if ! "$viewing" view "$work/demo.mcap" --save "$work/pilot.rrd" --force >/dev/null; then
-    echo "no pictures of the viewer: $viewing is not built with the default features" >&2
+# The viewer itself: the script that starts it would be ended in its place.
+viewer=$(find target/rerun-0.36.3/lib -path '*rerun_cli/rerun' -type f 2>/dev/null | head -1)
+if [ -z "$viewer" ] || ! "$viewing" view "$work/demo.mcap" --save "$work/demo.rrd" --force >/dev/null; then
+    echo "no pictures of the viewer: $viewing is not built with the default features, or" \
+        "tests/rerun_screenshot.sh has not brought the viewer yet" >&2
     exit 0
 fi
-for layout in engineer rotor latency; do
-    "$viewing" view "$work/demo.mcap" --layout "$layout" --save "$work/$layout.rrd"
-done
-"$viewing" view "$work/calm.mcap" --against "$work/pedals.mcap" --save "$work/compare.rrd"
-"$viewing" view "$work/crash.mcap" --save "$work/crash.rrd"
-pictures=(pilot engineer rotor latency compare crash)
+# As `view --viewer` starts it, without a window; it says where it listens and which process it is.
+cat >"$work/viewer" <<SCRIPT
+#!/bin/sh
+[ "\$1" = --version ] && exec "$PWD/$viewer" --version
+echo "\$\$ \$4" >"$work/listens"
+export RERUN_ANALYTICS=0
+exec "$PWD/$viewer" --headless --window-size 1400x900 "\$@"
+SCRIPT
+chmod +x "$work/viewer"
+
+as_jpeg() {
+    target/rerun-0.36.3/bin/python - "$1" "docs/pictures/view_$2.jpg" <<'PYTHON'
+import os, sys
+from PIL import Image
+
+picture = Image.open(sys.argv[1]).convert("RGB").resize((1400, 900))
+for quality in (84, 80, 76, 72, 68, 64):
+    picture.save(sys.argv[2], quality=quality, optimize=True)
+    if os.path.getsize(sys.argv[2]) < 200_000:
+        break
+PYTHON
+}
+
+# picture NAME LOG ARGUMENTS: what `view` shows of it.
+picture() {
+    local name=$1 process port
+    shift
+    "$viewing" view "$@" --viewer "$work/viewer" --force
+    read -r process port <"$work/listens"
+    # What was loaded is drawn by then.
+    sleep "${SETTLES:-20}"
+    timeout 120 target/rerun-0.36.3/bin/python - "$port" "$work/$name.png" <<'PYTHON'
+import os, sys, time
+from rerun.experimental import ViewerClient
+
+port, name = sys.argv[1:]
+ViewerClient(f"rerun+http://127.0.0.1:{port}/proxy").save_screenshot(os.path.abspath(name))
+# It answers before the file is there.
+size = -1
+for _ in range(80):
+    time.sleep(0.5)
+    before, size = size, os.path.getsize(name) if os.path.exists(name) else -1
+    if 0 < size == before:
+        break
+PYTHON
+    kill "$process"
+    as_jpeg "$work/$name.png" "$name"
+}
+picture pilot "$work/demo.mcap" --at 50
+picture engineer "$work/demo.mcap" --layout engineer --at 110
+picture rotor "$work/demo.mcap" --layout rotor --at 30
+picture latency "$work/demo.mcap" --layout latency --at 90
+picture compare "$work/calm.mcap" --against "$work/weaker.mcap" --at 23
+picture crash "$work/crash.mcap" --at 6.6
 # A log that diverges, as tests/view.rs leaves it: the aircraft in it is not the one that was flown.
 diverged=(target/tmp/view-diverged/parted/*.rrd)
 if [ -s "${diverged[0]}" ]; then
-    cp "${diverged[0]}" "$work/diverged.rrd"
-    pictures+=(diverged)
+    tests/rerun_screenshot.sh "${diverged[0]}" "$work/diverged.png" 30
+    as_jpeg "$work/diverged.png" diverged
 else
     echo "no picture of a diverged log: run tests/view.rs first" >&2
 fi
-for name in "${pictures[@]}"; do
-    tests/rerun_screenshot.sh "$work/$name.rrd" "$work/$name.png" 30
-    target/rerun-0.36.3/bin/python - "$work/$name.png" "docs/pictures/view_$name.jpg" <<'PYTHON'
-import sys
-from PIL import Image
-
-Image.open(sys.argv[1]).convert("RGB").save(sys.argv[2], quality=82, optimize=True)
-PYTHON
-done

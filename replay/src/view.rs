@@ -19,6 +19,7 @@
 //!     forces, moments       arrows of the components
 //! /map                      the track in latitude and longitude
 //! /corridor                 airspeed over incidence, see `corridor`
+//! /heading, /numbers        which flight it is, and numbers at the cursor, as pages
 //! /plots, /times, /raw, /fields           see `plots`, `raw`, `fields`
 //! /modes, /validity, /events              see `modes`, `events`
 //! ```
@@ -27,10 +28,11 @@
 //! ```text
 //! /delta/plots              the second less the first, of everything that is plotted
 //! /delta/growth             logarithm of the difference in position, velocity, attitude, rates
+//! /delta/numbers            numbers of both at the cursor
 //! /delta/apart              a line in the world from one aircraft to the other
 //! /delta/largest            the largest difference of each line
 //! ```
-//! Times are `tick` and `sim_time`, both exact; nothing carries the wall clock. An `.rrd` is a
+//! Times are `tick` and `sim_time`, both exact; nothing carries the wall clock but the words that say when it was flown. An `.rrd` is a
 //! rendering for the eye, in single precision where rerun has nothing else: the log is the truth.
 
 mod against;
@@ -46,12 +48,14 @@ mod field;
 mod fields;
 mod file;
 mod forces;
+mod heading;
 mod largest;
 mod layout;
 mod link;
 pub mod live;
 mod look;
 mod modes;
+mod numbers;
 mod own;
 mod parts;
 mod plots;
@@ -75,6 +79,7 @@ pub use against::{Comparison, DrawError, Drawn, Other, draw_against};
 pub use basics::{Severity, ViewError, level, severity};
 pub use canvas::About;
 use canvas::Canvas;
+use events::Happened;
 use file::Saved;
 pub use layout::Layout;
 use look::Look;
@@ -83,6 +88,8 @@ use parts::Plan;
 pub use stamp::{Mark, Stamp, Standing};
 pub use track::Moment;
 use track::Track;
+
+use crate::judgement::Judgement;
 
 /// Draws a flight into an `.rrd` file while it is flown or reflown.
 ///
@@ -96,6 +103,8 @@ pub struct FlightView {
     saved: Saved,
     canvas: Canvas,
     track: Track,
+    /// Events so far.
+    told: u64,
 }
 
 impl FlightView {
@@ -115,7 +124,7 @@ impl FlightView {
             .map_err(|error| saved.refused(error))?;
         let track = Track::new(look, aircraft, layout.fields());
         track.begin(&mut canvas);
-        Ok(Self { saved, canvas, track })
+        Ok(Self { saved, canvas, track, told: 0 })
     }
 
     /// Takes what was seen at a tick. Call it every tick; one in five is drawn.
@@ -128,9 +137,16 @@ impl FlightView {
         self.track.time(&mut self.canvas, timing);
     }
 
-    /// Notes an event.
+    /// Notes the next event of the log.
     pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
-        self.track.event(&mut self.canvas, tick, level, text);
+        self.told += 1;
+        let happened = Happened { tick, level, words: text, number: Some(self.told) };
+        self.track.event(&mut self.canvas, happened);
+    }
+
+    /// Notes what the log is, which begins at that tick.
+    pub fn judge(&mut self, tick: u64, judgement: &Judgement) {
+        self.track.judge(&mut self.canvas, tick, judgement);
     }
 
     /// Writes what is left and closes the file; its size in bytes.
@@ -216,7 +232,8 @@ mod tests {
     }
 
     fn view(out: &Output, title: &str) -> Result<FlightView, ViewError> {
-        let about = About { title: title.into(), recording_id: "a-test".into() };
+        let about =
+            About { title: title.into(), recording_id: "a-test".into(), ..About::default() };
         FlightView::new(out, &about, &Layout::Pilot, &xv15())
     }
 

@@ -129,10 +129,11 @@ mod with {
             let title = name.map_or_else(String::new, |name| name.display().to_string());
             let began = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
             let recording_id = format!("tiltrotor-live-{}", began.as_nanos());
+            let flown = vec!["while it is flown".into()];
             Ready {
                 place: self.place,
                 layout: self.layout,
-                about: About { title, recording_id },
+                about: About { title, recording_id, flown },
                 aircraft: flight.aircraft.clone(),
                 told: progress.listen_beside(),
             }

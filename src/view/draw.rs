@@ -3,13 +3,15 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use chrono::{DateTime, Utc};
 use engine::STEP_NS;
+use logs::Identity;
 use logs::output::Output;
 use logs::text::at;
 use replay::judgement::disorder;
 use replay::view::{
     About, Comparison, DrawError, FlightView, Layout, Mark, Moment, Other, Own, Stamp,
-    draw_against, level, severity,
+    draw_against, level,
 };
 use replay::{Facts, Reflight, ReflyOptions, Window};
 
@@ -62,6 +64,13 @@ pub fn save_default(log: &Path, saved: &Output) -> Result<u64> {
     Ok(one(log, saved, &Drawing { stamp, layout, window, shift_ticks: 0 })?.0)
 }
 
+/// When a log was flown, in words; empty where it does not say.
+fn flown(identity: &Identity) -> String {
+    let started = identity.get(Identity::STARTED).parse().ok();
+    let started = started.map(DateTime::<Utc>::from_timestamp_nanos);
+    started.map_or_else(String::new, |at| at.format("flown %Y-%m-%d %H:%M UTC").to_string())
+}
+
 fn title(log: &Path) -> String {
     log.file_stem().map_or_else(String::new, |stem| stem.display().to_string())
 }
@@ -71,7 +80,11 @@ fn title(log: &Path) -> String {
 pub fn one(log: &Path, saved: &Output, drawing: &Drawing) -> Result<(u64, Mark)> {
     let options = ReflyOptions { window: drawing.window, across_versions: false };
     let mut flight = Reflight::open(log, &options).with_context(|| log.display().to_string())?;
-    let about = About { title: title(log), recording_id: drawing.stamp.id().into() };
+    let about = About {
+        title: title(log),
+        recording_id: drawing.stamp.id().into(),
+        flown: vec![flown(&flight.reader.identity)],
+    };
     let mut view = FlightView::new(saved, &about, &drawing.layout, &flight.aircraft)?;
     let mut facts = Facts::of_reflight(&flight);
     let start_tick = flight.state.tick;
@@ -95,7 +108,7 @@ pub fn one(log: &Path, saved: &Output, drawing: &Drawing) -> Result<(u64, Mark)>
     flight.reader.timings.drain(..).for_each(|timing| view.time(&timing));
     facts.end_of_reflight(&mut flight, disorder, &drawing.window);
     let judgement = facts.judge();
-    view.event(start_tick, severity(&judgement), &judgement.words);
+    view.judge(start_tick, &judgement);
     say!("{}: {judgement}", log.display());
     for remark in &flight.reader.log_lines {
         view.event(remark.time_ns / STEP_NS, level(remark.level), &remark.words);
@@ -110,6 +123,13 @@ pub fn two(log: &Path, other: &Path, saved: &Output, drawing: &Drawing) -> Resul
         about: About {
             title: format!("{} against {}", title(log), title(other)),
             recording_id: drawing.stamp.id().into(),
+            // What cannot be opened is told below.
+            flown: [log, other]
+                .map(|log| {
+                    logs::open(log, replay::OPEN)
+                        .map_or_else(|_| String::new(), |reader| flown(&reader.identity))
+                })
+                .into(),
         },
         layout: drawing.layout.clone(),
         names: names(log, other),

@@ -23,6 +23,31 @@ pub struct Moment {
     pub at: f64,
     /// What.
     pub words: String,
+    /// How grave: that decides the colour of its disc.
+    pub gravity: Gravity,
+}
+
+/// How grave a moment is, least first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Gravity {
+    /// Good to know.
+    #[default]
+    Told,
+    /// Needs attention.
+    Warned,
+    /// Something failed.
+    Failed,
+}
+
+impl Gravity {
+    /// Colour of a disc; what is good to know has that of its flight.
+    pub fn colour(self, of: Colour) -> Colour {
+        match self {
+            Self::Told => of,
+            Self::Warned => Colour(0xB4, 0x69, 0x00),
+            Self::Failed => Colour(0xC2, 0x1F, 0x1F),
+        }
+    }
 }
 
 /// The moments of a flight, numbered from 1.
@@ -38,9 +63,21 @@ pub struct Moments {
     pub rest: String,
 }
 
-/// A number in a disc.
-pub fn disc(page: &mut Page, [x, y]: [f64; 2], number: usize, colour: Colour) {
-    page.disc([x, y], RADIUS, colour, Some(Pen::solid(PAPER, 0.8)));
+impl Moments {
+    /// Colour of a moment's disc, and its edge: of several flights the one that it belongs to.
+    pub(crate) fn disc(&self, gravity: Gravity) -> (Colour, Pen) {
+        let edge = if self.of.is_empty() || gravity == Gravity::Told {
+            Pen::solid(PAPER, 0.8)
+        } else {
+            Pen::solid(self.colour, 1.4)
+        };
+        (gravity.colour(self.colour), edge)
+    }
+}
+
+/// A number in a disc of that colour with that edge.
+pub fn disc(page: &mut Page, [x, y]: [f64; 2], number: usize, (colour, edge): (Colour, Pen)) {
+    page.disc([x, y], RADIUS, colour, Some(edge));
     page.words([x, y + 2.7], number.to_string(), 7.5, PAPER, Anchor::Middle);
 }
 
@@ -85,7 +122,8 @@ pub fn draw(
             page.line(vec![[*x, *top], [*x, *foot]], pen);
         }
         for (number, (x, row)) in places.iter().zip(&rows).enumerate() {
-            disc(page, [*x, y(*row)], number + 1, moments.colour);
+            let look = moments.disc(moments.list[number].gravity);
+            disc(page, [*x, y(*row)], number + 1, look);
         }
         bottom -= rows.into_iter().max().map_or(0.0, |row| (row + 1) as f64 * ROW);
     }
@@ -126,7 +164,7 @@ pub fn key(page: &mut Page, all: &[Moments], [left, top]: [f64; 2], room: f64) {
         for (number, moment) in moments.list.iter().enumerate() {
             let (column, line) = (number / lines, number % lines);
             let (x, y) = (left + column as f64 * wide, y + line as f64 * KEY_LINE);
-            disc(page, [x + RADIUS, y + 6.0], number + 1, moments.colour);
+            disc(page, [x + RADIUS, y + 6.0], number + 1, moments.disc(moment.gravity));
             let words = fitted(&moment.words, KEY_SIZE, wide - 2.0 * RADIUS - 10.0);
             page.words([x + 2.0 * RADIUS + 4.0, y + 9.0], words, KEY_SIZE, INK, Anchor::Start);
         }
@@ -147,6 +185,20 @@ mod tests {
     fn discs_that_are_near_stand_in_rows() {
         assert_eq!(rows(&[0.0, 50.0, 100.0]), [0, 0, 0]);
         assert_eq!(rows(&[0.0, 2.0, 4.0, 50.0]), [0, 1, 2, 0]);
+    }
+
+    #[test]
+    fn what_is_grave_has_a_colour_of_its_own_and_the_edge_says_whose_it_is() {
+        let of = |of: &str| Moments {
+            of: of.into(),
+            colour: INK,
+            list: Vec::new(),
+            rest: String::new(),
+        };
+        assert_eq!(of("").disc(Gravity::Told).0, INK);
+        let (fill, edge) = of("b").disc(Gravity::Failed);
+        assert!(fill != INK && edge.colour == INK);
+        assert!(Gravity::Told < Gravity::Warned && Gravity::Warned < Gravity::Failed);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use engine::math::{max, min, sqrt, square};
 
 use crate::frame::{self, HEAD, LEFT, RIGHT, TITLE_SIZE, WIDTH};
 use crate::line::{self, Curve};
-use crate::moments::{self, Moments, disc};
+use crate::moments::{self, Gravity, Moments, disc};
 use crate::page::{Anchor, Colour, GREY, INK, PAPER, Page, Pen, width};
 use crate::scale::{Scale, widened};
 
@@ -64,6 +64,8 @@ pub struct Plane {
     pub areas: Vec<Area>,
     /// Curves.
     pub curves: Vec<Curve>,
+    /// Of these curves, by their names, arrows say which way they go.
+    pub directed: Vec<String>,
     /// Words.
     pub labels: Vec<Label>,
     /// Where each moment of each flight is.
@@ -131,13 +133,19 @@ impl Plane {
         for curve in &self.curves {
             line::draw(&mut page, curve, tolerance, place);
         }
+        for curve in self.curves.iter().filter(|curve| self.directed.contains(&curve.name)) {
+            if let line::Look::Line(pen) = curve.look {
+                let points: Vec<_> = curve.points.iter().copied().map(place).collect();
+                arrows(&points).into_iter().for_each(|head| page.area(head, pen.colour, 1.0));
+            }
+        }
         for label in &self.labels {
             let at = place(label.at);
             page.words(at, label.words.as_str(), 8.5, GREY, label.anchor);
         }
         frame::around(&mut page, &x, &y, &y_ticks);
         for (moments, places) in self.moments.iter().zip(&self.places) {
-            mark(&mut page, places.iter().copied().map(place), moments.colour);
+            mark(&mut page, places.iter().copied().map(place), moments);
         }
         page.words([x.from, top - 6.0], self.axes[1].as_str(), TITLE_SIZE, INK, Anchor::Start);
         line::legend(&mut page, &self.curves, x.to, top - 6.0);
@@ -147,6 +155,53 @@ impl Plane {
     }
 }
 
+/// From one arrow along a curve to the next, points.
+const ARROWS_APART: f64 = 90.0;
+/// Length of an arrow's head, and half of its width.
+const HEAD_LENGTH: f64 = 8.0;
+const HEAD_HALF: f64 = 3.4;
+
+/// Heads of arrows along a curve on the page; a point that is not finite breaks it.
+fn arrows(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let mut heads = Vec::new();
+    // The first one stands half as far from the beginning.
+    let mut gone = 0.5 * ARROWS_APART;
+    let mut tail = None;
+    for pair in points.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let far = distance(from, to);
+        if !far.is_finite() {
+            tail = None;
+            continue;
+        }
+        // Over the length of a head, so that noise does not turn it.
+        let back = *tail.get_or_insert(from);
+        if distance(back, to) < HEAD_LENGTH {
+            gone += far;
+            continue;
+        }
+        gone += far;
+        tail = Some(to);
+        if gone >= ARROWS_APART {
+            gone = 0.0;
+            heads.push(head(back, to));
+        }
+    }
+    heads
+}
+
+/// A triangle whose point is at `to`.
+fn head([fx, fy]: [f64; 2], [tx, ty]: [f64; 2]) -> Vec<[f64; 2]> {
+    let far = max(distance([fx, fy], [tx, ty]), 1e-9);
+    let (dx, dy) = ((tx - fx) / far, (ty - fy) / far);
+    let (bx, by) = (tx - HEAD_LENGTH * dx, ty - HEAD_LENGTH * dy);
+    vec![
+        [tx, ty],
+        [bx - HEAD_HALF * dy, by + HEAD_HALF * dx],
+        [bx + HEAD_HALF * dy, by - HEAD_HALF * dx],
+    ]
+}
+
 /// The range, widened around its middle.
 fn around((low, high): (f64, f64), wide: f64) -> (f64, f64) {
     let middle = 0.5 * (low + high);
@@ -154,7 +209,9 @@ fn around((low, high): (f64, f64), wide: f64) -> (f64, f64) {
 }
 
 /// Numbers moments along a curve. Those at one place share a label, which stands above it.
-pub fn mark(page: &mut Page, places: impl Iterator<Item = [f64; 2]>, colour: Colour) {
+pub fn mark(page: &mut Page, places: impl Iterator<Item = [f64; 2]>, moments: &Moments) {
+    let gravity =
+        |place: usize| moments.list.get(place).map_or(Gravity::Told, |moment| moment.gravity);
     let apart = 2.0 * moments::RADIUS;
     let mut clusters: Vec<([f64; 2], Vec<usize>)> = Vec::new();
     for (place, at) in places.enumerate() {
@@ -165,8 +222,13 @@ pub fn mark(page: &mut Page, places: impl Iterator<Item = [f64; 2]>, colour: Col
     }
     for (at, numbers) in clusters {
         match numbers[..] {
-            [number] => disc(page, at, number, colour),
-            _ => label(page, at, &ranges(&numbers), colour),
+            [number] => disc(page, at, number, moments.disc(gravity(number - 1))),
+            _ => {
+                // That of the gravest of them.
+                let gravest = numbers.iter().map(|number| gravity(number - 1)).max();
+                let colour = gravest.unwrap_or_default().colour(moments.colour);
+                label(page, at, &ranges(&numbers), colour);
+            }
         }
     }
 }
@@ -223,6 +285,7 @@ mod tests {
             upright: None,
             areas: Vec::new(),
             curves: vec![Curve::line("", Pen::solid(INK, 1.0), points)],
+            directed: Vec::new(),
             labels: Vec::new(),
             places: Vec::new(),
             moments: Vec::new(),
@@ -245,10 +308,25 @@ mod tests {
     }
 
     #[test]
+    fn arrows_point_the_way_that_a_curve_goes() {
+        let east: Vec<_> = (0..300).map(|i| [f64::from(i), 5.0]).collect();
+        let heads = arrows(&east);
+        assert_eq!(heads.len(), 3, "{heads:?}");
+        for head in &heads {
+            assert!(head[0][0] > head[1][0] && head[0][0] > head[2][0], "{head:?}");
+        }
+        let west: Vec<_> = east.iter().rev().copied().collect();
+        assert!(arrows(&west).iter().all(|head| head[0][0] < head[1][0]));
+        assert!(arrows(&[[0.0, 0.0]]).is_empty() && arrows(&[[f64::NAN; 2]; 5]).is_empty());
+    }
+
+    #[test]
     fn numbers_at_one_place_share_a_label() {
         let words = |places: &[[f64; 2]]| -> Vec<String> {
             let mut page = Page::new(WIDTH, 100.0, "", "");
-            mark(&mut page, places.iter().copied(), INK);
+            let moments =
+                Moments { of: String::new(), colour: INK, list: Vec::new(), rest: String::new() };
+            mark(&mut page, places.iter().copied(), &moments);
             let of = |mark: &crate::page::Mark| match mark {
                 crate::page::Mark::Words(words) => Some(words.text.clone()),
                 _ => None,

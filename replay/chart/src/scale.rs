@@ -44,7 +44,11 @@ impl Scale {
             let (low, high) = (log10(self.low).ceil() as i32, log10(self.high).floor() as i32);
             return (low..=high).map(|power| (ten_to(power), written_power(power))).collect();
         }
-        let step = step(self.high - self.low, count);
+        self.ticks_every(step(self.high - self.low, count))
+    }
+
+    /// Ticks a step apart.
+    pub fn ticks_every(&self, step: f64) -> Vec<Tick> {
         let slack = NEAR * step;
         let (first, last) = (
             ((self.low - slack) / step).ceil() as i64,

@@ -161,7 +161,7 @@ impl Space {
         }
         for (moments, flight) in self.moments.iter().zip(&self.flights) {
             let places = flight.places.iter().map(|place| view.at(*place));
-            mark(&mut page, places, moments.colour);
+            mark(&mut page, places, moments);
         }
         let curves: Vec<Curve> = self
             .flights

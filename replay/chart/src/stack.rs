@@ -6,7 +6,7 @@ use crate::frame::{self, HEAD, LEFT, RIGHT, TITLE_SIZE, WIDTH};
 use crate::line::{self, Curve, Guide, Look};
 use crate::moments::{self, Moments};
 use crate::page::{Anchor, Colour, INK, Page, width};
-use crate::scale::{Scale, decades, widened};
+use crate::scale::{Scale, Tick, decades, widened};
 
 /// Height of a panel's title.
 const PANEL_HEAD: f64 = 17.0;
@@ -45,6 +45,8 @@ pub struct Panel {
     pub with: Vec<f64>,
     /// Whether the axis counts in powers of ten.
     pub logarithmic: bool,
+    /// Whether the axis counts turns, in degrees: in quarters of one, or halves of a quarter.
+    pub turns: bool,
     /// Height, points.
     pub height: f64,
 }
@@ -79,6 +81,7 @@ impl Panel {
             least,
             with: Vec::new(),
             logarithmic: false,
+            turns: false,
             height: 92.0,
         }
     }
@@ -95,6 +98,11 @@ impl Panel {
             .filter(|value| value.is_finite() && (!self.logarithmic || *value > 0.0));
         let (low, high) = values
             .fold((f64::MAX, f64::MIN), |(low, high), value| (min(low, value), max(high, value)));
+        if low <= high && self.turns {
+            let step = quarter(low, high);
+            let (low, high) = ((low / step).floor(), (high / step).ceil());
+            return (low * step, max(high, low + 1.0) * step);
+        }
         match (low <= high, self.logarithmic) {
             (true, true) => decades(low, high),
             (true, false) => widened(low, high, self.least, self.tick_count()),
@@ -103,8 +111,29 @@ impl Panel {
         }
     }
 
+    /// Ticks of its axis.
+    fn ticks(&self, scale: &Scale) -> Vec<Tick> {
+        if self.turns {
+            scale.ticks_every(quarter(scale.low, scale.high))
+        } else {
+            scale.ticks(self.tick_count())
+        }
+    }
+
     fn tick_count(&self) -> f64 {
         max(self.height / 24.0, 2.0)
+    }
+}
+
+/// Steps of an axis that counts turns, deg: quarters, unless it is more than four turns, or less than half of one.
+fn quarter(low: f64, high: f64) -> f64 {
+    match high - low {
+        range if range > 1440.0 => 360.0,
+        range if range > 720.0 => 180.0,
+        range if range >= 180.0 => 90.0,
+        range if range >= 60.0 => 30.0,
+        range if range >= 20.0 => 10.0,
+        _ => 5.0,
     }
 }
 
@@ -134,7 +163,7 @@ impl Stack {
             let (low, high) = panel.range();
             let logarithmic = panel.logarithmic;
             let scale = Scale { low, high, from: y, to: y - panel.height, logarithmic };
-            let y_ticks = scale.ticks(panel.tick_count());
+            let y_ticks = panel.ticks(&scale);
             frame::panel(&mut page, &x, &scale, &x_ticks, &y_ticks);
             drawn.push((panel, scale, y_ticks));
         }
@@ -199,6 +228,18 @@ mod tests {
         assert!(high - low >= 10.0, "{low} {high}");
         let (low, high) = panel(Vec::new()).range();
         assert!(low < high);
+    }
+
+    #[test]
+    fn a_heading_is_counted_in_quarters() {
+        let heading = Panel { turns: true, ..panel(vec![[0.0, 3.0], [1.0, 271.0]]) };
+        let (low, high) = heading.range();
+        let scale = Scale { low, high, from: 90.0, to: 0.0, logarithmic: false };
+        let words: Vec<_> = heading.ticks(&scale).into_iter().map(|(_, words)| words).collect();
+        assert_eq!(words, ["0", "90", "180", "270", "360"]);
+        let steady = Panel { turns: true, ..panel(vec![[0.0, 90.0], [1.0, 90.0]]) };
+        let (low, high) = steady.range();
+        assert!(low < high && low <= 90.0 && high >= 90.0, "{low} {high}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use chart::page::Anchor;
 use chart::plane::{Area, Label, Plane};
-use chart::{Colour, Curve, Pen};
+use chart::{Colour, Curve, Look, Pen};
 use engine::units::{degrees, knots};
 
 use super::flight::{Flight, Row};
@@ -31,13 +31,24 @@ pub fn plane(flights: &[&Flight]) -> Plane {
     }
     outside.retain(|curve| curve.points.iter().any(|point| point[0].is_finite()));
     curves.extend(outside);
+    let least: Vec<Option<Least>> = flights.iter().map(|flight| Least::of(flight)).collect();
+    for (of, least) in least.iter().enumerate() {
+        curves.extend(least.as_ref().map(|least| Curve {
+            name: least.words(&look::name(flights, of, "least margin")),
+            look: Look::Dots(look::ALARM, 3.0),
+            points: vec![least.at],
+        }));
+    }
     let places = flights.iter().map(|flight| {
         let (chosen, _) = flight.moments();
         chosen.into_iter().filter_map(|moment| flight.row_at(moment.tick)).map(point).collect()
     });
     Plane {
         title: Figure::Corridor.facts().words.into(),
-        subtitle: look::subtitle(flights, "limits of the aircraft's file, level flight"),
+        subtitle: look::subtitle(
+            flights,
+            "limits of the aircraft's file, level flight; arrows show which way",
+        ),
         axes: [
             "Calibrated airspeed, kt".into(),
             "Nacelle incidence, deg (90 helicopter, 0 aeroplane)".into(),
@@ -48,6 +59,7 @@ pub fn plane(flights: &[&Flight]) -> Plane {
         upright: Some((-6.0, 102.0)),
         areas: vec![Area { edge: limits.edge(), colour: INSIDE, ink: 1.0 }],
         labels: limits.labels(),
+        directed: (0..flights.len()).map(|of| track_name(flights, of)).collect(),
         curves,
         places: places.collect(),
         moments: look::moments(flights),
@@ -66,6 +78,32 @@ fn point(row: &Row) -> [f64; 2] {
 fn margin_kt(flight: &Flight, row: &Row) -> f64 {
     let tilt_rad = engine::units::radians(90.0 - row.incidence_deg);
     knots(flight.corridor.margin_mps(tilt_rad, row.calibrated_airspeed_mps))
+}
+
+/// Where a flight was nearest to a limit of its corridor.
+struct Least {
+    margin_kt: f64,
+    at_s: f64,
+    at: [f64; 2],
+}
+
+impl Least {
+    /// Of a flight that was in the air where the corridor is asked for.
+    fn of(flight: &Flight) -> Option<Self> {
+        let margins = flight.rows.iter().filter(|row| row.flying);
+        let margins = margins.map(|row| Self {
+            margin_kt: margin_kt(flight, row),
+            at_s: row.time_s,
+            at: point(row),
+        });
+        margins.reduce(|least, next| if next.margin_kt < least.margin_kt { next } else { least })
+    }
+
+    fn words(&self, name: &str) -> String {
+        let beyond = if self.margin_kt < 0.0 { " (outside)" } else { "" };
+        let kt = chart::with_minus(format!("{:.1}", self.margin_kt));
+        format!("{name}: {kt} kt at {:.1} s{beyond}", self.at_s)
+    }
 }
 
 /// The track where it is wanted; elsewhere it is broken.

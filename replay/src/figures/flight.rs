@@ -223,6 +223,14 @@ impl Flight {
         (chosen, left)
     }
 
+    /// When it ended in an impact that nothing is meant to stand, s.
+    pub fn crash_s(&self) -> Option<f64> {
+        let impact = |happened: &&Happened| {
+            happened.what == Some(FlightEvent::Impact) && happened.level == Level::Error
+        };
+        self.happened.iter().find(impact).map(|happened| happened.tick as f64 * STEP_S)
+    }
+
     /// The row at a tick, or the first one after it.
     pub fn row_at(&self, tick: u64) -> Option<&Row> {
         let time_s = tick as f64 * STEP_S - 0.5 * STEP_S;

@@ -33,7 +33,7 @@ pub fn stack(flights: &[&Flight]) -> Result<Stack, Undrawn> {
         let dot = |time: &StepTime| [time_s(time), ms(time.latency_ns)];
         let points: Vec<_> = flight.times.iter().filter(stamped).map(dot).collect();
         if !points.is_empty() {
-            let look = Look::Dots(look::FLIGHTS[of.min(1)], 0.7);
+            let look = Look::Dots(look::of_flight(of, flights.len() == 1), 0.7);
             let name = look::name(flights, of, "each input of hardware");
             hands.curves.push(Curve { name, look, points: thinned(&points) });
         }
@@ -93,7 +93,7 @@ fn panel(title: &str) -> Panel {
 /// Median and longest of each column of ticks.
 fn curves(flights: &[&Flight], of: usize, ns: fn(&StepTime) -> u64) -> Vec<Curve> {
     let times = &flights[of].times;
-    let colour = look::FLIGHTS[of.min(1)];
+    let colour = look::of_flight(of, flights.len() == 1);
     let (mut medians, mut band) = (Vec::new(), Vec::new());
     for column in times.chunks(times.len().div_ceil(COLUMNS).max(1)) {
         let Some(middle) = column.get(column.len() / 2) else { continue };

@@ -1,18 +1,24 @@
 //! Colours and words that all figures share.
 
-use chart::moments::{Moment, Moments};
+use chart::moments::{Gravity, Moment, Moments};
 use chart::stack::Span;
 use chart::{Colour, Dash, Pen};
 use engine::STEP_S;
+use logs::view::Level;
 
 use super::flight::{Configuration, Flight};
 
-/// One flight, and another one beside it; apart for every kind of sight and in print.
-pub const FLIGHTS: [Colour; 2] = [Colour(0x15, 0x4A, 0x8C), Colour(0xD5, 0x5E, 0x00)];
+/// The only flight.
+const ALONE: Colour = Colour(0x15, 0x4A, 0x8C);
+/// One flight, and another one beside it: apart for every kind of sight and in print, and from the colours of
+/// the configurations and of the sides.
+pub const FLIGHTS: [Colour; 2] = [Colour(0x4A, 0x4A, 0x4A), Colour(0xC7, 0x15, 0x8B)];
 /// Left is red and right is green, as the navigation lights are.
 pub const SIDES: [Colour; 2] = [Colour(0xC2, 0x3B, 0x32), Colour(0x1E, 0x84, 0x49)];
 /// What is outside its limits.
 pub const ALARM: Colour = Colour(0xC2, 0x1F, 0x1F);
+/// What lies between two flights.
+pub const DIFFERENCE: Colour = Colour(0x7A, 0x2E, 0x00);
 /// A limit.
 pub const LIMIT: Colour = Colour(0x8A, 0x8A, 0x8A);
 /// Width of a curve, points.
@@ -21,7 +27,12 @@ const WIDTH: f64 = 1.15;
 /// The pen of a curve: of the only flight, or of one of two.
 pub fn pen(of: usize, alone: bool, second: bool) -> Pen {
     let dash = if second { Dash::Dashed } else { Dash::Solid };
-    Pen { colour: FLIGHTS[of.min(1)], width: width(of, alone), dash }
+    Pen { colour: of_flight(of, alone), width: width(of, alone), dash }
+}
+
+/// Colour of the only flight, or of one of two.
+pub fn of_flight(of: usize, alone: bool) -> Colour {
+    if alone { ALONE } else { FLIGHTS[of.min(1)] }
 }
 
 /// Of two flights the second is drawn within the first: where they are the same, both are seen.
@@ -68,9 +79,13 @@ pub fn name(flights: &[&Flight], of: usize, words: &str) -> String {
 
 /// Which log it is, or which two.
 pub fn subtitle(flights: &[&Flight], more: &str) -> String {
-    let named = |flight: &&Flight| match &flight.caveat {
-        Some(caveat) => format!("{} ({caveat})", flight.name),
-        None => flight.name.clone(),
+    let named = |flight: &&Flight| {
+        let crash = flight.crash_s().map(|at_s| format!("CRASH at {at_s:.1} s"));
+        let told: Vec<String> = crash.into_iter().chain(flight.caveat.clone()).collect();
+        match told[..] {
+            [] => flight.name.clone(),
+            _ => format!("{} ({})", flight.name, told.join("; ")),
+        }
     };
     let names = flights.iter().map(named).collect::<Vec<_>>().join(" and ");
     if more.is_empty() { names } else { format!("{names}; {more}") }
@@ -96,7 +111,12 @@ pub fn moments(flights: &[&Flight]) -> Vec<Moments> {
         let (chosen, left) = flight.moments();
         let list = chosen.into_iter().map(|happened| {
             let at = happened.tick as f64 * STEP_S;
-            Moment { at, words: format!("{at:.1} s  {}", happened.short()) }
+            let gravity = match happened.level {
+                Level::Info => Gravity::Told,
+                Level::Warn => Gravity::Warned,
+                Level::Error => Gravity::Failed,
+            };
+            Moment { at, words: format!("{at:.1} s  {}", happened.short()), gravity }
         });
         Moments {
             of: if flights.len() > 1 { flight.name.clone() } else { String::new() },

@@ -1,7 +1,7 @@
 //! Figures over time: one table says what each of them shows.
 
-use chart::Curve;
 use chart::stack::{Panel, Stack};
+use chart::{Curve, Dash, Pen};
 use engine::math::{max, min};
 use engine::units::{FOOT_M, FPM_PER_MPS, RPM_PER_RADPS, degrees, knots};
 
@@ -21,6 +21,8 @@ struct Shown {
     /// Values that the axis has in any case.
     with: &'static [f64],
     quantity: Quantity,
+    /// Whether it is an angle that goes round.
+    turns: bool,
 }
 
 /// One curve, or two that are told apart.
@@ -33,7 +35,7 @@ enum Quantity {
 use Quantity::{One, Sides, Two};
 
 const fn shown(title: &'static str, least: f64, with: &'static [f64], quantity: Quantity) -> Shown {
-    Shown { title, least, with, quantity }
+    Shown { title, least, with, quantity, turns: false }
 }
 
 const PROFILE: [Shown; 6] = [
@@ -66,12 +68,15 @@ const PROFILE: [Shown; 6] = [
 const EULER: [Shown; 3] = [
     shown("Roll φ, deg (right wing down positive)", 10.0, &[0.0], One(|r| degrees(r.roll_rad))),
     shown("Pitch θ, deg (nose up positive)", 10.0, &[0.0], One(|r| degrees(r.pitch_rad))),
-    shown(
-        "Heading ψ, deg (from north to the east, continued beyond a turn)",
-        20.0,
-        &[],
-        One(|r| degrees(r.heading_rad)),
-    ),
+    Shown {
+        turns: true,
+        ..shown(
+            "Heading ψ, deg (from north to the east, continued beyond a turn)",
+            20.0,
+            &[],
+            One(|r| degrees(r.heading_rad)),
+        )
+    },
 ];
 
 const CONTROLS: [Shown; 7] = [
@@ -153,8 +158,18 @@ pub fn stack(figure: Figure, flights: &[&Flight]) -> Stack {
     let ranges = flights.iter().map(|flight| flight.range_s());
     let x_range = ranges.fold((f64::MAX, f64::MIN), |(a, b), (c, d)| (min(a, c), max(b, d)));
     let height = if shown.len() > 5 { 76.0 } else { 96.0 };
-    let panel = |shown: &Shown| Panel { height, ..panel(shown, flights) };
-    let mut panels: Vec<Panel> = shown.iter().map(panel).collect();
+    let mut all: Vec<&Shown> = shown.iter().collect();
+    if figure == Figure::Profile && flights.iter().any(|flight| flight.crash_s().is_some()) {
+        // How it came down.
+        all.extend(EULER.iter().filter(|shown| !shown.turns));
+    }
+    let mut panels: Vec<Panel> = Vec::new();
+    for shown in all {
+        panels.push(Panel { height, ..panel(shown, flights) });
+        if let [first, second] = flights {
+            panels.push(difference(shown, first, second));
+        }
+    }
     if figure == Figure::Profile {
         // Pilots read feet.
         let feet =
@@ -196,5 +211,98 @@ fn panel(shown: &Shown, flights: &[&Flight]) -> Panel {
             }
         }
     }
-    Panel { with: shown.with.to_vec(), ..Panel::new(shown.title, shown.least, curves) }
+    let turns = shown.turns;
+    Panel { with: shown.with.to_vec(), turns, ..Panel::new(shown.title, shown.least, curves) }
+}
+
+/// Height of a strip of differences.
+const STRIP: f64 = 34.0;
+/// It has this part of the range at least that the quantity itself has: what is less is rounding.
+const STRIP_NORM: f64 = 1e-4;
+
+/// The second flight less the first, where both are.
+fn difference(shown: &Shown, first: &Flight, second: &Flight) -> Panel {
+    let both = together(&first.rows, &second.rows);
+    let points = |read: Read| -> Vec<[f64; 2]> {
+        let apart = |(a, b): &(&Row, &Row)| {
+            let apart = read(b) - read(a);
+            [a.time_s, if shown.turns { around(apart) } else { apart }]
+        };
+        both.iter().map(apart).collect()
+    };
+    let pen = |dash| Pen { colour: look::DIFFERENCE, width: 1.0, dash };
+    let line = |name: &str, dash, read| Curve::line(name, pen(dash), points(read));
+    let curves = match shown.quantity {
+        One(read) => vec![line("", Dash::Solid, read)],
+        Two([(a, read_a), (b, read_b)]) => {
+            vec![line(a, Dash::Solid, read_a), line(b, Dash::Dashed, read_b)]
+        }
+        Sides(left, right) => {
+            vec![line("left", Dash::Solid, left), line("right", Dash::Dashed, right)]
+        }
+    };
+    let unit = unit(shown.title);
+    let title = format!("{} less {}{unit}; {}", second.name, first.name, largest(&curves));
+    let least = STRIP_NORM * shown.least;
+    Panel { height: STRIP, with: vec![0.0], ..Panel::new(title, least, curves) }
+}
+
+/// The largest difference of some curves, and when it is.
+fn largest(curves: &[Curve]) -> String {
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let farther = |most: [f64; 2], next: &[f64; 2]| {
+        if next[1].abs() > most[1].abs() { *next } else { most }
+    };
+    match points.fold([0.0; 2], farther) {
+        [_, apart] if apart.abs() <= 0.0 => "the same".into(),
+        [at_s, apart] => {
+            let digits = if apart.abs() < 0.01 { 5 } else { 2 };
+            format!("largest {} at {at_s:.2} s", chart::with_minus(format!("{apart:.digits$}")))
+        }
+    }
+}
+
+/// Rows of the same time.
+fn together<'a>(first: &'a [Row], second: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
+    let mut both = Vec::new();
+    let mut rest = second.iter().peekable();
+    for a in first {
+        while rest.next_if(|b| b.time_s < a.time_s).is_some() {}
+        // Of the same tick: the same bits.
+        if let Some(b) = rest.next_if(|b| b.time_s <= a.time_s) {
+            both.push((a, b));
+        }
+    }
+    both
+}
+
+/// The shorter way round, deg.
+fn around(apart_deg: f64) -> f64 {
+    (apart_deg + 180.0).rem_euclid(360.0) - 180.0
+}
+
+/// The unit of a title, behind a comma; none of a ratio.
+fn unit(title: &str) -> String {
+    let words = title.split(" (").next().unwrap_or(title);
+    words.rsplit_once(", ").map_or_else(String::new, |(_, unit)| format!(", {unit}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_told_from_titles() {
+        for shown in PROFILE.iter().chain(&EULER).chain(&CONTROLS).chain(&ROTORS) {
+            let unit = unit(shown.title);
+            assert!(unit.starts_with(", ") && unit.len() < 14, "{}: {unit}", shown.title);
+        }
+        assert_eq!(unit("Power lever, % of travel (up positive)"), ", % of travel");
+        assert_eq!(unit(EULER[2].title), ", deg");
+    }
+
+    #[test]
+    fn headings_differ_by_the_shorter_way_round() {
+        assert!((around(359.0) + 1.0).abs() < 1e-9 && (around(-350.0) - 10.0).abs() < 1e-9);
+    }
 }

@@ -93,6 +93,7 @@ pub fn plan(flights: &[&Flight]) -> Plane {
         with: Vec::new(),
         upright: None,
         areas: Vec::new(),
+        directed: curves.clone().map(|(name, ..)| name).collect(),
         curves: curves.map(|(name, pen, points)| Curve::line(name, pen, points)).collect(),
         labels: Vec::new(),
         places: flights.iter().map(|flight| places(flight, east_north)).collect(),

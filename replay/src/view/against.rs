@@ -8,16 +8,19 @@ use engine::{Aircraft, Inputs, State, observe, step};
 use logs::cdr;
 use logs::output::Output;
 use logs::view::LogLine;
-use rerun::{LineStrips3D, MediaType, Radius, Scalars, SeriesLines, TextDocument};
+use rerun::{LineStrips3D, Radius, Scalars, SeriesLines};
 
-use super::basics::{Severity, TICKS_PER_ROW, ViewError, level, severity};
+use super::basics::{Severity, TICKS_PER_ROW, ViewError, level};
 use super::canvas::{About, Canvas, times};
 use super::columns::point;
+use super::events::Happened;
 use super::file::Saved;
+use super::heading;
 use super::largest::Largest;
 use super::layout::Layout;
 use super::look::Look;
-use super::parts::Plan;
+use super::numbers::{self, Pages, ROWS_PER_PAGE};
+use super::parts::{NUMBERS_OF_TWO, Plan};
 use super::plots::GRAPHS;
 use super::stamp::Mark;
 use super::still::send_graphs;
@@ -57,6 +60,7 @@ impl Comparison {
             about: About {
                 title: title.into(),
                 recording_id: format!("tiltrotor-reflown-{title}"),
+                flown: Vec::new(),
             },
             layout: Layout::Compare,
             names: ["recorded".into(), "reflown".into()],
@@ -231,6 +235,7 @@ struct Page {
     second: Track,
     names: Names,
     rows: Vec<Row>,
+    pages: Pages,
     largest: Largest,
     first_difference: Option<u64>,
 }
@@ -266,6 +271,8 @@ impl Page {
             let sent = canvas.recording.log_static(growth_entity(number), &lines);
             canvas.keep(sent);
         }
+        let sent = numbers::send_still(&canvas.recording, NUMBERS_OF_TWO);
+        canvas.keep(sent);
         let line = LineStrips3D::update_fields()
             .with_radii([Radius::new_ui_points(2.0)])
             .with_colors([0xFF_20_20_FF]);
@@ -281,6 +288,7 @@ impl Page {
             second,
             names: Names::of::<State>().map_err(ReplayError::from)?,
             rows: Vec::new(),
+            pages: Pages::default(),
             largest: Largest::default(),
             first_difference: None,
         })
@@ -310,6 +318,10 @@ impl Page {
             .map(|(graph, line)| difference(graph.entity, (line.of)(&of_a), (line.of)(&of_b)))
             .collect();
         self.largest.add(tick, &plots);
+        if tick.is_multiple_of(TICKS_PER_ROW * ROWS_PER_PAGE) {
+            let page = numbers::page_of_two(self.names_of_both(), [&of_a, &of_b]);
+            self.pages.add(tick, page);
+        }
         self.rows.push(Row {
             tick,
             plots,
@@ -322,13 +334,17 @@ impl Page {
         Ok(())
     }
 
+    fn names_of_both(&self) -> [&str; 2] {
+        [&self.first, &self.second].map(|track| track.look.name.trim_end_matches(": "))
+    }
+
     /// What the first log is, and what happened in it.
     fn tell_first(&mut self, start_tick: u64, judgement: &Judgement, log_lines: &[LogLine]) {
         let (track, canvas) = (&mut self.first, &mut self.canvas);
-        track.event(canvas, start_tick, severity(judgement), &judgement.words);
-        for line in log_lines {
+        track.judge(canvas, start_tick, judgement);
+        for (number, line) in (1..).zip(log_lines) {
             let tick = line.time_ns / engine::STEP_NS;
-            track.event(canvas, tick, level(line.level), &line.words);
+            track.event(canvas, told(line, tick, number));
         }
     }
 
@@ -341,10 +357,10 @@ impl Page {
         how: &Comparison,
     ) {
         let (track, canvas) = (&mut self.second, &mut self.canvas);
-        track.event(canvas, start_tick, severity(judgement), &judgement.words);
-        for line in log_lines {
+        track.judge(canvas, start_tick, judgement);
+        for (number, line) in (1..).zip(log_lines) {
             let tick = how.back(line.time_ns / engine::STEP_NS);
-            track.event(canvas, tick, level(line.level), &line.words);
+            track.event(canvas, told(line, tick, number));
         }
     }
 
@@ -366,9 +382,13 @@ impl Page {
                 "first difference: {} ({stage}), {} beside {}",
                 difference.name.path, difference.a, difference.b
             );
-            self.first.event(&mut self.canvas, tick, Severity::Warning, &words);
+            self.note(tick, Severity::Warning, &words);
         }
         Ok(())
+    }
+
+    fn note(&mut self, tick: u64, level: Severity, words: &str) {
+        self.first.event(&mut self.canvas, Happened { tick, level, words, number: None });
     }
 
     /// Logarithms to base 10 of the largest difference in each quantity; NaN, which is not drawn,
@@ -389,6 +409,7 @@ impl Page {
     }
 
     fn flush(&mut self) {
+        self.pages.flush(&mut self.canvas, NUMBERS_OF_TWO);
         let rows = std::mem::take(&mut self.rows);
         if rows.is_empty() {
             return;
@@ -426,19 +447,22 @@ impl Page {
         self.flush();
         if self.first_difference.is_none() {
             let words = "no difference: the same states to the bit";
-            self.first.event(&mut self.canvas, 0, Severity::Info, words);
+            self.note(0, Severity::Info, words);
         }
         self.first.finish(&mut self.canvas);
         self.second.finish(&mut self.canvas);
-        let names = [&self.first.look.name, &self.second.look.name];
-        let page =
-            self.largest.page(names.map(|name| name.trim_end_matches(": ")), self.first_difference);
-        let document = TextDocument::new(page).with_media_type(MediaType::markdown());
-        let sent = self.canvas.recording.log_static("delta/largest", &document);
-        self.canvas.keep(sent);
+        let page = self.largest.page(self.names_of_both(), self.first_difference);
+        self.canvas.write("delta/largest", page);
+        let flights = [&self.first, &self.second].map(|track| (&track.look, &track.facts));
+        heading::send_two(&mut self.canvas, flights);
         let bytes = file.finish(self.canvas, &mark.name())?;
         Ok(Drawn { bytes, first_difference: self.first_difference, judgements })
     }
+}
+
+/// An event of a log, at a tick.
+fn told(line: &LogLine, tick: u64, number: u64) -> Happened<'_> {
+    Happened { tick, level: level(line.level), words: &line.words, number: Some(number) }
 }
 
 fn growth_entity(number: usize) -> String {

@@ -7,7 +7,7 @@
 use engine::STEP_NS;
 use rerun::blueprint::components::{
     ActiveTab, BackgroundKind, ColumnShare, ContainerKind, Corner2D, Eye3DKind, LinkAxis,
-    PanelState, RowShare, ViewClass,
+    PanelState, PlayState, RowShare, ViewClass,
 };
 use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
@@ -24,14 +24,16 @@ use rerun::external::re_sdk_types::datatypes::{
 };
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
-use super::corridor;
 use super::layout::Layout;
 use super::parts::{Part, Plan, Shown};
+use super::{corridor, parts};
 
 /// How much of the line behind the aircraft is bright.
 const FLOWN_NS: i64 = 30_000_000_000;
 /// Legends lie over the beginning of a plot: time axes begin before the flight, by this part of it.
 const BEFORE_NORM: f64 = 0.26;
+/// Of two flights, whose lines have longer names in narrower plots.
+const BEFORE_OF_TWO_NORM: f64 = 0.62;
 /// And end after it by this part, so that its last moment is seen.
 const AFTER_NORM: f64 = 0.02;
 /// The viewer's place for what all views with a linked time axis share (`GLOBAL_VIEW_ID` in its source).
@@ -124,10 +126,17 @@ impl Page<'_> {
                 self.view("StateTimeline", name, "/", &queries, &[("TimeAxis", &axis)])
             }
             Shown::Plot { title, queries, legend } => self.plot(title, queries, *legend),
-            Shown::Document { name, entity } => {
-                self.view("TextDocument", name, entity, &["$origin".into()], &[])
+            Shown::Heading => self.document("Flight", &format!("/{}", parts::HEADING)),
+            Shown::Numbers if self.plan.is_comparison() => {
+                self.document("Both at the cursor", &format!("/{}", parts::NUMBERS_OF_TWO))
             }
+            Shown::Numbers => self.document("At the cursor", &format!("/{}", parts::NUMBERS)),
+            Shown::Document { name, entity } => self.document(name, entity),
         }
+    }
+
+    fn document(&mut self, name: &str, entity: &str) -> RecordingStreamResult<Id> {
+        self.view("TextDocument", name, entity, &["$origin".into()], &[])
     }
 
     /// Flies along, behind and to the left of the aircraft, turning with its heading: the view's
@@ -150,7 +159,8 @@ impl Page<'_> {
         let eye = EyeControls3D::new().with_kind(Eye3DKind::Orbital).with_eye_up([0.0, 0.0, -1.0]);
         let grid = LineGrid3D::new().with_spacing(10.0).with_color(0xFF_FF_FF_50);
         let origin = format!("{}world", self.plan.roots[0]);
-        let without = self.without(&["ground", "grid", "aircraft/forces", "aircraft/moments"]);
+        let without = ["ground", "grid", "chase/scale", "aircraft/forces", "aircraft/moments"];
+        let without = self.without(&without);
         self.scene("Overview", &origin, &without, &eye, &grid)
     }
 
@@ -284,12 +294,16 @@ impl Page<'_> {
         let closed = PanelBlueprint::new().with_state(PanelState::Collapsed);
         self.stream.log("blueprint_panel", &closed)?;
         self.stream.log("selection_panel", &closed)?;
-        let time = TimePanelBlueprint::new()
+        let mut time = TimePanelBlueprint::new()
             .with_state(PanelState::Collapsed)
             .with_timeline(TimelineName(super::basics::SIM_TIME.into()));
+        if span.is_none() {
+            // Of a flight that goes on the latest is shown.
+            time = time.with_play_state(PlayState::Following);
+        }
         self.stream.log("time_panel", &time)?;
         let all = format!("view/{}/TimeAxis", hyphenated(Uuid { bytes: ALL_VIEWS }));
-        self.stream.log(all, &TimeAxis::new().with_view_range(whole(span)))
+        self.stream.log(all, &TimeAxis::new().with_view_range(whole(span, self.plan)))
     }
 
     fn id(&mut self) -> Uuid {
@@ -302,12 +316,13 @@ impl Page<'_> {
 }
 
 /// All of a flight, with room for legends before it. Without it the viewer shows a minute around the cursor.
-fn whole(span: Option<(u64, u64)>) -> components::TimeRange {
+fn whole(span: Option<(u64, u64)>, plan: &Plan) -> components::TimeRange {
     let Some((first, last)) = span else { return components::TimeRange(TimeRange::EVERYTHING) };
     let ns = |tick: f64| TimeRangeBoundary::Absolute(TimeInt((tick * STEP_NS as f64) as i64));
     let (first, last) = (first as f64, last as f64);
     let length = last - first;
-    let (start, end) = (ns(first - BEFORE_NORM * length), ns(last + AFTER_NORM * length));
+    let before_norm = if plan.is_comparison() { BEFORE_OF_TWO_NORM } else { BEFORE_NORM };
+    let (start, end) = (ns(first - before_norm * length), ns(last + AFTER_NORM * length));
     components::TimeRange(TimeRange { start, end })
 }
 

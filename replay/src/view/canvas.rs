@@ -4,8 +4,8 @@ use engine::STEP_NS;
 use engine::aircraft::Params as Aircraft;
 use rerun::sink::LogSink;
 use rerun::{
-    RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult,
-    TimeColumn,
+    MediaType, RecordingStream, RecordingStreamBuilder, RecordingStreamError,
+    RecordingStreamResult, TextDocument, TimeColumn,
 };
 
 use super::basics::SIM_TIME;
@@ -20,6 +20,9 @@ use super::still::send_static_scene;
 /// Ticks of the timeline `tick`.
 const TICK: &str = "tick";
 
+/// Rows that are waited for.
+const ROWS_SETTLED: usize = 256;
+
 /// Editions of a layout: for a flight that never ends, and for one that is over.
 const BEGUN: u8 = 1;
 const OVER: u8 = 2;
@@ -31,12 +34,16 @@ pub struct About {
     pub title: String,
     /// Of the same recording the same; of any other, another one.
     pub recording_id: String,
+    /// Of each flight, when it was flown, in words; empty where that is not known.
+    pub flown: Vec<String>,
 }
 
 /// What is drawn on.
 pub struct Canvas {
     /// The recording.
     pub recording: RecordingStream,
+    /// What it is called.
+    pub about: About,
     /// First and last tick drawn.
     pub span: Option<(u64, u64)>,
     layout: Layout,
@@ -67,7 +74,14 @@ impl Canvas {
             .iter()
             .try_for_each(|(look, aircraft)| send_static_scene(&recording, look, aircraft))?;
         blueprint::send(&recording, BEGUN, (&layout, &plan), "", None)?;
-        Ok(Self { recording, span: None, layout, plan, error: None })
+        Ok(Self { recording, about: about.clone(), span: None, layout, plan, error: None })
+    }
+
+    /// Writes a page that does not move, in Markdown.
+    pub fn write(&mut self, entity: &str, page: String) {
+        let document = TextDocument::new(page).with_media_type(MediaType::markdown());
+        let sent = self.recording.log_static(entity, &document);
+        self.keep(sent);
     }
 
     /// Sends rows of an entity.
@@ -76,6 +90,11 @@ impl Canvas {
             self.recording.send_columns(entity, times.iter().cloned(), columns)
         });
         self.keep(sent);
+        // Many rows are written before the next ones are made: of a long flight they would wait in memory, all
+        // entities of them. What cannot be written is told at the end.
+        if times.iter().any(|times| times.num_rows() >= ROWS_SETTLED) {
+            let _ = self.recording.flush_blocking();
+        }
     }
 
     /// Notes that a tick is drawn.

@@ -18,7 +18,7 @@ pub const NOW: &str = "corridor/now";
 const TRACK: &str = "corridor/track";
 
 /// What is seen of the plane at first: airspeeds, kt, and incidences, deg.
-pub const SEEN: [[f64; 2]; 2] = [[-30.0, 310.0], [-14.0, 104.0]];
+pub const SEEN: [[f64; 2]; 2] = [[-30.0, 310.0], [-26.0, 104.0]];
 
 /// High by so much for 1°.
 const KT_PER_DEG: f64 = 1.2;

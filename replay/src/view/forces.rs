@@ -85,6 +85,8 @@ pub struct Arrows {
     /// Name and colour of each.
     pub each: &'static [(&'static str, u32)],
     m_per_unit: f64,
+    /// Whether each has its name beside it: where they stand apart.
+    named: bool,
     of: fn(&Places, &Outputs) -> Vec<Arrow>,
 }
 
@@ -124,6 +126,7 @@ pub const ARROWS: &[Arrows] = &[
         entity: "world/aircraft/forces/rotors",
         each: &[("left rotor", SIDES.left), ("right rotor", SIDES.right)],
         m_per_unit: M_PER_N,
+        named: true,
         of: |places, outputs| {
             components(places, outputs)[..2].iter().map(|(at, load)| (*at, load.force_n)).collect()
         },
@@ -141,6 +144,7 @@ pub const ARROWS: &[Arrows] = &[
             ("right jet", CYAN),
         ],
         m_per_unit: M_PER_N,
+        named: false,
         of: |places, outputs| {
             components(places, outputs)[2..].iter().map(|(at, load)| (*at, load.force_n)).collect()
         },
@@ -149,6 +153,7 @@ pub const ARROWS: &[Arrows] = &[
         entity: "world/aircraft/forces/gear",
         each: &[("nose gear", GREY), ("left gear", GREY), ("right gear", GREY)],
         m_per_unit: M_PER_N,
+        named: false,
         of: |places, outputs| {
             let (tyres, legs) = (places.tyres_m, outputs.loads.landing_gear);
             [
@@ -164,6 +169,7 @@ pub const ARROWS: &[Arrows] = &[
         entity: "world/aircraft/forces/sum",
         each: &[("total without weight", WHITE), ("weight", BLACK)],
         m_per_unit: M_PER_N,
+        named: true,
         of: |_, outputs| {
             vec![(Vec3::zero(), outputs.total.force_n), (Vec3::zero(), weight_n(outputs))]
         },
@@ -182,6 +188,7 @@ pub const ARROWS: &[Arrows] = &[
             ("total moment", WHITE),
         ],
         m_per_unit: M_PER_N_M,
+        named: false,
         of: |places, outputs| {
             let parts = components(places, outputs);
             let mut arrows: Vec<_> =
@@ -199,7 +206,7 @@ impl Arrows {
             .with_radii([if self.entity.ends_with("moments") { 0.05 } else { 0.09 }])
             .with_colors(self.each.iter().map(|(_, colour)| *colour))
             .with_labels(self.each.iter().map(|(name, _)| *name))
-            .with_show_labels(false)
+            .with_show_labels(self.named)
     }
 
     /// What does.
@@ -210,6 +217,24 @@ impl Arrows {
             .columns(std::iter::repeat_n(self.each.len(), rows.len()))
             .map(Vec::from_iter)
     }
+}
+
+/// Entity of the arrows of known length.
+pub const SCALE: &str = "world/chase/scale";
+
+/// What the others are measured by: beside the aircraft, and turning with its heading.
+pub fn scale() -> impl AsComponents + use<> {
+    const LENGTHS: [(&str, f64, u32); 2] = [
+        ("10 kN of force", 10e3 * M_PER_N, WHITE),
+        ("10 kN·m of moment", 10e3 * M_PER_N_M, ORANGE),
+    ];
+    let up = |(_, length_m, _): (&str, f64, u32)| [0.0, 0.0, -length_m as f32];
+    Arrows3D::from_vectors(LENGTHS.map(up))
+        .with_origins([[-5.5, 7.0, -0.5], [-5.5, 7.0, 2.2]])
+        .with_radii([0.06])
+        .with_colors(LENGTHS.map(|(_, _, colour)| colour))
+        .with_labels(LENGTHS.map(|(words, ..)| words))
+        .with_show_labels(true)
 }
 
 /// Entity of the wind's arrow.

@@ -33,16 +33,18 @@ impl Largest {
         }
         let names = GRAPHS
             .iter()
-            .flat_map(|graph| graph.lines.iter().map(move |line| (graph.title, line.name)));
+            .flat_map(|graph| graph.lines.iter().map(move |line| (graph.named(), line.name)));
         let differing: Vec<_> =
             names.zip(&self.lines).filter(|(_, (difference, _))| *difference != 0.0).collect();
         if differing.is_empty() {
             return page;
         }
-        page.push_str("| what | largest | at, s |\n|---|---:|---:|\n");
-        for ((title, name), (difference, tick)) in differing {
+        page.push_str("| what | largest | unit | at, s |\n|---|---:|---|---:|\n");
+        for ((graph, name), (difference, tick)) in differing {
             let at_s = *tick as f64 * STEP_S;
-            let _ = writeln!(page, "| {title}: {name} | {} | {at_s:.2} |", told(*difference));
+            let (what, unit) = graph;
+            let _ =
+                writeln!(page, "| {what}: {name} | {} | {unit} | {at_s:.2} |", told(*difference));
         }
         page
     }
@@ -74,7 +76,7 @@ mod tests {
         largest.add(750, &row);
         let page = largest.page(["a", "b"], Some(250));
         assert!(page.contains("# b less a"), "{page}");
-        assert!(page.contains("Height, m: above ground | -2.250 | 2.00 |"), "{page}");
+        assert!(page.contains("Height: above ground | -2.250 | m | 2.00 |"), "{page}");
         assert_eq!(page.lines().filter(|line| line.starts_with("| ")).count(), 2, "{page}");
         assert!(Largest::default().page(["a", "b"], None).contains("No difference"));
     }

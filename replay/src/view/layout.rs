@@ -1,7 +1,9 @@
 //! How the viewer arranges a flight.
 //!
 //! ```text
-//! ┌──────────────────┬──────────────────┐
+//! ┌────────────┬────────────────────────┐
+//! │ which it is│ numbers at the cursor  │
+//! ├────────────┴─────┬──────────────────┤
 //! │ 3D, following    │ plots, in tabs   │
 //! │ the aircraft     │                  │
 //! ├──────────────────┤                  │
@@ -60,21 +62,28 @@ impl Layout {
 
     /// The arrangement.
     pub fn tree(&self, plan: &Plan) -> Part {
-        match self {
+        let below = match self {
             Self::Pilot => pilot(plan),
             Self::Engineer => engineer(plan),
             Self::Rotor => rotor(plan),
             Self::Latency => latency(plan),
             Self::Compare => compare(plan),
-            Self::Own(own) => own.tree(plan),
-        }
+            Self::Own(own) => return own.tree(plan),
+        };
+        let share = if plan.is_comparison() { 4.8 } else { 6.7 };
+        down("Review", &[1.0, share], vec![above(), below])
     }
+}
+
+/// Which flight it is, and numbers at the cursor.
+fn above() -> Part {
+    across("Above", &[1.0, 2.2], vec![view(Shown::Heading), view(Shown::Numbers)])
 }
 
 /// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::parts::RAW) is all axes.
 type Tab = (&'static str, &'static [&'static str]);
 
-const FLIGHT: Tab = ("Flight", &["height", "airspeed", "nacelle", "attitude", "pilot"]);
+const FLIGHT: Tab = ("Flight", &["height", "airspeed", "nacelle", "attitude"]);
 const MOTION: Tab = ("Motion", &["heading", "rates", "climb", "flow", "load_factor"]);
 const CONTROLS: Tab = ("Control chain", &["raw", "pilot", "scas", "elevator", "flaperons"]);
 const BLADES: Tab =
@@ -157,7 +166,7 @@ fn pilot(plan: &Plan) -> Part {
         &[11.0, 10.0],
         vec![
             down("Where", &[5.0, 3.0, 2.0], left),
-            down("When", &[12.0, 10.0], vec![plots, lanes()]),
+            down("When", &[11.7, 11.3], vec![plots, lanes()]),
         ],
     )
 }
@@ -170,7 +179,7 @@ fn engineer(plan: &Plan) -> Part {
         &[2.0, 3.0],
         vec![
             down("Where", &[3.0, 2.0, 2.0], left),
-            down("When", &[12.0, 10.0], vec![tabs(plan, &all), lanes()]),
+            down("When", &[11.7, 11.3], vec![tabs(plan, &all), lanes()]),
         ],
     )
 }
@@ -187,7 +196,7 @@ fn rotor(plan: &Plan) -> Part {
         &[1.0, 2.0],
         vec![
             down("Where", &[3.0, 2.0, 2.0], left),
-            down("When", &[12.0, 10.0], vec![plots, lanes()]),
+            down("When", &[11.7, 11.3], vec![plots, lanes()]),
         ],
     )
 }
@@ -198,12 +207,23 @@ fn latency(plan: &Plan) -> Part {
     across(
         "Latency",
         &[5.0, 2.0],
-        vec![down("When", &[12.0, 10.0], left), down("Where", &[1.0, 1.0], right)],
+        vec![down("When", &[11.7, 11.3], left), down("Where", &[1.0, 1.0], right)],
     )
 }
 
-/// Graphs that are compared; times of ticks are the machine's, not the flight's.
-const COMPARED: [Tab; 8] = [FLIGHT, MOTION, CONTROLS, ROTORS, BLADES, ENGINES, LOADS, GEAR];
+/// Graphs that are compared, with room for the legends of two; times of ticks are the machine's, not the flight's.
+const COMPARED: [Tab; 10] = [
+    FLIGHT,
+    ("Controls", &["pilot", "scas", "elevator", "flaperons"]),
+    ("Motion", &["heading", "rates", "climb", "load_factor"]),
+    ("Rotors", &["rotor_speed", "thrust", "torque", "blade_loading"]),
+    ("Blades", &["collective", "cyclic", "flapping_aft", "flapping_outboard"]),
+    ("Engines", &["power", "fuel_flow", "fuel"]),
+    ("Forces", &["force_x", "force_z", "moment_pitch"]),
+    ("Moments", &["moment_roll", "moment_yaw", "flow"]),
+    ("Gear", &["gear_push", "gear_compression", "gear_extension", "wind"]),
+    ("More", &["inflow", "coning", "stalled", "raw"]),
+];
 
 fn compare(plan: &Plan) -> Part {
     let pairs = COMPARED.iter().map(|(name, graphs)| {

@@ -11,6 +11,7 @@ use logs::records::TimingRecord;
 
 use super::basics::Severity;
 use super::canvas::{About, Canvas};
+use super::events::Happened;
 use super::layout::Layout;
 use super::link::{Link, Standing};
 use super::look::Look;
@@ -53,6 +54,8 @@ pub struct LiveView {
     aircraft: Aircraft,
     track: Track,
     events: Vec<(u64, Severity, String)>,
+    /// Events so far, more than are told again.
+    told: u64,
     link: Option<Link>,
     /// On the link, when that is open.
     canvas: Option<Canvas>,
@@ -73,6 +76,7 @@ impl LiveView {
             layout,
             aircraft: aircraft.clone(),
             events: Vec::new(),
+            told: 0,
             link: None,
             canvas: None,
             tried: None,
@@ -129,8 +133,10 @@ impl LiveView {
 
     /// Notes an event.
     pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
+        self.told += 1;
         if let Some(canvas) = &mut self.canvas {
-            self.track.event(canvas, tick, level, text);
+            let happened = Happened { tick, level, words: text, number: Some(self.told) };
+            self.track.event(canvas, happened);
         }
         if self.events.len() >= EVENTS_MAX {
             self.events.remove(0);
@@ -164,8 +170,10 @@ impl LiveView {
             return;
         };
         self.track.begin(&mut canvas);
-        for (tick, level, text) in &self.events {
-            self.track.event(&mut canvas, *tick, *level, text);
+        let before = self.told - self.events.len() as u64;
+        for (number, (tick, level, words)) in (before + 1..).zip(&self.events) {
+            let happened = Happened { tick: *tick, level: *level, words, number: Some(number) };
+            self.track.event(&mut canvas, happened);
         }
         self.path_tick = 0;
         self.tally.found += 1;
@@ -184,7 +192,7 @@ mod tests {
     fn shown_at(place: &str) -> (Tally, usize, Duration) {
         let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15)
             .unwrap_or_else(|error| panic!("{error}"));
-        let about = About { title: "live".into(), recording_id: "live".into() };
+        let about = About { title: "live".into(), ..About::default() };
         let mut view = LiveView::new(place, about, Layout::Pilot, &xv15);
         let mut longest = Duration::ZERO;
         for row in 1..=25 {

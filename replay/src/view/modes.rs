@@ -145,7 +145,16 @@ pub fn configuration(outputs: &Outputs) -> (&'static str, u32) {
     }
 }
 
+/// Nacelles and gear in words.
+pub fn words(outputs: &Outputs) -> [&'static str; 2] {
+    [configuration(outputs).0, gear_of(outputs)]
+}
+
 fn gear(Seen { outputs, .. }: Seen) -> &'static str {
+    gear_of(outputs)
+}
+
+fn gear_of(outputs: &Outputs) -> &'static str {
     let on_wheels = outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
     match outputs.actuators.gear_extension_norm {
         _ if on_wheels => "on the ground",
@@ -155,8 +164,8 @@ fn gear(Seen { outputs, .. }: Seen) -> &'static str {
     }
 }
 
-fn flaps(seen: Seen) -> &'static str {
-    let detent = usize::try_from(seen.outputs.cockpit.flap_detent).unwrap_or(usize::MAX);
+fn flaps(Seen { outputs, .. }: Seen) -> &'static str {
+    let detent = usize::try_from(outputs.cockpit.flap_detent).unwrap_or(usize::MAX);
     DETENTS[detent.min(DETENTS.len() - 1)]
 }
 

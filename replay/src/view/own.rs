@@ -18,7 +18,8 @@ use super::field::Field;
 use super::parts::{Part, Plan, Shown};
 
 /// The names by which a view of a file shows something that is no plot.
-const NAMES: [&str; 6] = ["aircraft", "overview", "map", "corridor", "events", "lanes"];
+const NAMES: [&str; 8] =
+    ["aircraft", "overview", "map", "corridor", "events", "lanes", "heading", "numbers"];
 
 /// Tabs and their views.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,6 +104,8 @@ fn shown(name: &str) -> Option<Shown> {
         "map" => Shown::Map,
         "corridor" => Shown::Corridor,
         "events" => Shown::Events,
+        "heading" => Shown::Heading,
+        "numbers" => Shown::Numbers,
         "lanes" => Shown::Lanes { name: "Lanes", of: "modes/**" },
         _ => return None,
     })

@@ -2,6 +2,12 @@
 
 /// Entities of all axes are below it.
 pub const RAW: &str = "raw";
+/// Entity of the page above everything.
+pub const HEADING: &str = "heading";
+/// Entity of a flight's table of numbers at the cursor.
+pub const NUMBERS: &str = "numbers";
+/// Entity of that of two.
+pub const NUMBERS_OF_TWO: &str = "delta/numbers";
 
 /// What is laid out.
 #[derive(Clone, Debug)]
@@ -74,6 +80,10 @@ pub enum Shown {
         /// Whether it says which line is which.
         legend: bool,
     },
+    /// Which flight it is, and what it is worth.
+    Heading,
+    /// Numbers at the cursor.
+    Numbers,
     /// A page of text.
     Document {
         /// Of the view.

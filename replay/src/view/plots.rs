@@ -33,6 +33,17 @@ impl<T> Graph<T> {
     const fn new(entity: &'static str, title: &'static str, lines: &'static [Line<T>]) -> Self {
         Self { entity, title, lines }
     }
+
+    /// Its name and its unit; that of a ratio is empty.
+    pub fn named(&self) -> (&'static str, &'static str) {
+        match self.title.rsplit_once(", ") {
+            Some((name, unit)) if !unit.contains(['=', '/']) || unit.starts_with("deg/") => {
+                (name, unit.split(" (").next().unwrap_or(unit))
+            }
+            Some((name, unit)) if ["ft/min", "m/s", "kg/h"].contains(&unit) => (name, unit),
+            _ => (self.title, ""),
+        }
+    }
 }
 
 const LEFT: u32 = super::basics::SIDES.left;
@@ -240,6 +251,9 @@ pub const GRAPHS: &[Graph<Outputs>] = &[
     by_component!("plots/moment_yaw", "Yawing moment, right +, kN·m", |load| load.moment_n_m.z),
 ];
 
+/// From one tick to the next, in which all of its work is to be done.
+const BUDGET_MS: f64 = 1e3 * engine::STEP_S;
+
 fn ms(ns: u64) -> f64 {
     ns as f64 * 1e-6
 }
@@ -250,6 +264,7 @@ pub const TIMES: &[Graph<TimingRecord>] = &[
     Graph::new("times/sent", "From due to the picture's packet, ms", &[
         broad("lateness and all", ORANGE, |t| ms(t.late_ns.saturating_add(t.sent_ns))),
         line("lateness alone", BLUE, |t| ms(t.late_ns)),
+        line("a tick: 4 ms", GREY, |_| BUDGET_MS),
     ]),
     Graph::new("times/latency", "From an input in the kernel to the packet, ms", &[
         // Without an input of hardware there is none.
@@ -258,11 +273,12 @@ pub const TIMES: &[Graph<TimingRecord>] = &[
     Graph::new("times/step", "Work of a tick, ms", &[
         line("flight model", ORANGE, |t| ms(t.step_ns)),
         line("handing over to the log", BLUE, |t| ms(t.record_ns)),
+        line("a tick: 4 ms", GREY, |_| BUDGET_MS),
     ]),
     Graph::new("times/slip", "Slips of the clock, ms", &[
         line("slip", LEFT, |t| ms(t.slip_ns)),
     ]),
-    Graph::new("times/overrun", "Overruns", &[
+    Graph::new("times/overrun", "Overruns: ticks that ended late, of a flight in real time", &[
         line("ended after the next tick was due", LEFT, |t| t.overrun as f64),
     ]),
 ];
@@ -297,6 +313,20 @@ mod tests {
             let said = title.contains(", ") || ratios.contains(&entity);
             assert!(said, "{entity}: {title}");
         }
+    }
+
+    #[test]
+    fn a_unit_is_told_from_the_name() {
+        let named = |entity: &str| {
+            GRAPHS.iter().find(|graph| graph.entity == entity).expect("a graph").named()
+        };
+        assert_eq!(named("plots/height"), ("Height", "m"));
+        assert_eq!(named("plots/nacelle"), ("Nacelle incidence", "deg"));
+        assert_eq!(named("plots/cyclic"), ("Longitudinal cyclic, forward +", "deg"));
+        assert_eq!(named("plots/climb"), ("Climb", "ft/min"));
+        assert_eq!(named("plots/rates"), ("Body rates", "deg/s"));
+        assert_eq!(named("plots/blade_loading"), ("Blade loading, C_T/σ", ""));
+        assert_eq!(named("plots/gear_extension"), ("Gear, 1 = down", ""));
     }
 
     #[test]

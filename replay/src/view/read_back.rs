@@ -16,6 +16,7 @@ use rerun::sink::{LogSink, SinkFlushError};
 
 use super::basics::{Severity, TICKS_PER_ROW};
 use super::canvas::{About, Canvas};
+use super::events::Happened;
 use super::layout::Layout;
 use super::look::Look;
 use super::parts::Plan;
@@ -57,7 +58,8 @@ fn drawn() -> Vec<Chunk> {
     let xv15 =
         aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap_or_else(|error| panic!("{error}"));
     let (kept, look) = (Kept::default(), Look::alone());
-    let about = About { title: "read back".into(), recording_id: "read-back".into() };
+    let title = "read back".into();
+    let about = About { title, recording_id: "read-back".into(), ..About::default() };
     let plan = (Layout::Engineer, Plan::new(&[&look.root]));
     let mut canvas =
         Canvas::begin(Box::new(kept.clone()), &about, plan, &[(&look, &*xv15)]).expect("begun");
@@ -68,8 +70,9 @@ fn drawn() -> Vec<Chunk> {
         track.push(&mut canvas, Moment { outputs: &at(tick), world: &world, events: &[] });
         track.time(&mut canvas, &TimingRecord { tick, ..TimingRecord::default() });
     }
-    track.event(&mut canvas, 7, Severity::Info, "one");
-    track.event(&mut canvas, 900, Severity::Warning, "two");
+    let happened = |tick, level, words| Happened { tick, level, words, number: None };
+    track.event(&mut canvas, happened(7, Severity::Info, "one"));
+    track.event(&mut canvas, happened(900, Severity::Warning, "two"));
     track.finish(&mut canvas);
     let (recording, error) = canvas.end("");
     assert!(error.is_none(), "{error:?}");

@@ -57,40 +57,40 @@ fn pose(
         .map(Vec::from_iter)
 }
 
-/// Everything in the world that moves, with the ground under it or without.
-pub fn moving_columns(
+/// Sends everything in the world that moves, with the ground under it or without; one after the other, so that
+/// of a long flight no more is in memory at a time.
+pub fn send_moving(
     rows: &[Outputs],
     mounts: &Mounts,
     places: &Places,
     ground: bool,
-) -> Vec<(&'static str, Columns)> {
+    mut send: impl FnMut(&'static str, Columns),
+) {
     let still = |_: &Outputs| Quaternion::IDENTITY;
+    let at = |row: &Outputs| point(row.position_m);
+    send("world/chase", pose(rows, at, |row| turn(row.euler.heading_rad)));
+    send("world/aircraft", pose(rows, at, attitude));
+    send("world/aircraft/airframe", pose(rows, datum, still));
+    send(forces::WIND, forces::wind_columns(rows));
     let plumb = LineStrips3D::new(rows.iter().map(|row| {
         let below = PathPoint::new(row);
         [point(below.position_m), point(below.on_ground_m())]
     }));
+    send("world/plumb", plumb.columns_of_unit_batches().map(Vec::from_iter));
     let track = GeoPoints::from_lat_lon(rows.iter().map(|row| degrees(&row.place)));
-    let at = |row: &Outputs| point(row.position_m);
-    let mut columns = vec![
-        ("world/chase", pose(rows, at, |row| turn(row.euler.heading_rad))),
-        ("world/aircraft", pose(rows, at, attitude)),
-        ("world/aircraft/airframe", pose(rows, datum, still)),
-        (forces::WIND, forces::wind_columns(rows)),
-        ("world/plumb", plumb.columns_of_unit_batches().map(Vec::from_iter)),
-        ("map/aircraft", track.columns_of_unit_batches().map(Vec::from_iter)),
-    ];
-    columns.extend(nacelle_columns(rows, mounts));
-    columns.extend(gear_columns(rows, mounts));
-    columns.extend(mounts.hinges.iter().map(|hinge| {
-        (hinge.entity, pose(rows, |_| hinge.at, |row| about(hinge.axis, (hinge.angle_rad)(row))))
-    }));
-    columns.extend(ARROWS.iter().map(|arrows| (arrows.entity, arrows.columns(rows, places))));
-    if ground {
-        let plane = pose(rows, |row| under(row, scenery::PLANE_STEP_M), still);
-        let grid = pose(rows, |row| under(row, scenery::GRID_STEP_M), still);
-        columns.extend([("world/ground", plane), ("world/grid", grid)]);
+    send("map/aircraft", track.columns_of_unit_batches().map(Vec::from_iter));
+    nacelle_columns(rows, mounts).into_iter().for_each(|(entity, of)| send(entity, of));
+    gear_columns(rows, mounts).into_iter().for_each(|(entity, of)| send(entity, of));
+    for hinge in &mounts.hinges {
+        let turned = |row: &Outputs| about(hinge.axis, (hinge.angle_rad)(row));
+        send(hinge.entity, pose(rows, |_| hinge.at, turned));
     }
-    columns
+    ARROWS.iter().for_each(|arrows| send(arrows.entity, arrows.columns(rows, places)));
+    if ground {
+        let under = |step_m| move |row: &Outputs| under(row, step_m);
+        send("world/ground", pose(rows, under(scenery::PLANE_STEP_M), still));
+        send("world/grid", pose(rows, under(scenery::GRID_STEP_M), still));
+    }
 }
 
 /// Nacelles on their pivots, tip path planes on the masts, blades in the planes.

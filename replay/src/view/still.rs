@@ -1,9 +1,10 @@
 //! What does not move in the world, and the path at the end.
 
+use engine::Outputs;
 use engine::aircraft::Params as Aircraft;
 use rerun::{
-    GeoLineStrings, GeoPoints, LineStrips3D, Radius, RecordingStream, RecordingStreamResult,
-    StateConfiguration, ViewCoordinates,
+    GeoLineStrings, GeoPoints, LineStrips3D, Points3D, Radius, RecordingStream,
+    RecordingStreamResult, StateConfiguration, ViewCoordinates,
 };
 
 use super::airframe;
@@ -37,6 +38,9 @@ pub fn send_static_scene(
     send_aircraft(recording, look, aircraft)?;
     for arrows in ARROWS {
         recording.log_static(entity(arrows.entity), &arrows.still())?;
+    }
+    if look.ground {
+        recording.log_static(entity(forces::SCALE), &forces::scale())?;
     }
     recording.log_static(entity(forces::WIND), &forces::still_wind())?;
     recording.log_static(
@@ -116,6 +120,23 @@ fn send_aircraft(
         recording.log_static(rotor.as_str(), &tinted(airframe::blades(aircraft)))?;
     }
     Ok(())
+}
+
+/// Marks where nothing after it means anything.
+pub fn send_crash(
+    recording: &RecordingStream,
+    look: &Look,
+    outputs: &Outputs,
+    label: &str,
+) -> RecordingStreamResult<()> {
+    recording.log_static(
+        look.entity("world/crash"),
+        &Points3D::new([point(outputs.position_m)])
+            .with_radii([Radius::new_ui_points(7.0)])
+            .with_colors([0xFF_20_20_FF])
+            .with_labels([format!("{}{label}", look.name)])
+            .with_show_labels(true),
+    )
 }
 
 /// Sends what is known only at the end: the whole path, a strip for each stretch of a configuration.

@@ -1,0 +1,173 @@
+//! Numbers at the cursor, as a table that changes with it.
+
+use std::fmt::Write;
+
+use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees};
+use engine::{Outputs, STEP_S};
+use rerun::{MediaType, RecordingStream, RecordingStreamResult, TextDocument};
+
+use super::canvas::{Canvas, times};
+use super::modes;
+
+/// Of so many rows one is told: five a second, as fast as anybody reads.
+pub const ROWS_PER_PAGE: u64 = 10;
+
+/// A number, with its unit, and how many decimals are read.
+struct Number {
+    name: &'static str,
+    decimals: usize,
+    of: fn(&Outputs) -> f64,
+}
+
+const fn number(name: &'static str, decimals: usize, of: fn(&Outputs) -> f64) -> Number {
+    Number { name, decimals, of }
+}
+
+const READ: &[Number] = &[
+    number("height, m", 1, |o| o.height_above_ground_m),
+    number("airspeed, kt", 1, |o| o.calibrated_airspeed_mps * KT_PER_MPS),
+    number("climb, ft/min", 0, |o| -o.velocity_mps.z * FPM_PER_MPS),
+    number("heading, deg", 0, |o| degrees(o.euler.heading_rad).rem_euclid(360.0)),
+    number("roll, deg", 1, |o| degrees(o.euler.roll_rad)),
+    number("pitch, deg", 1, |o| degrees(o.euler.pitch_rad)),
+    number("load, g", 2, |o| o.load_factor),
+    number("nacelles, deg", 1, |o| 90.0 - degrees(o.actuators.mast_tilt_rad.mean())),
+    number("lever, %", 0, |o| 100.0 * o.cockpit.collective_norm),
+    number("rotors, rpm", 0, |o| o.rotor_speed_radps * RPM_PER_RADPS),
+    number("power, kW", 0, |o| 1e-3 * o.engines.power_w.sum()),
+];
+
+/// The first line of a table, and the one below it.
+fn head(page: &mut String, first: &str) {
+    let _ = write!(page, "| {first} |");
+    READ.iter().for_each(|number| {
+        let _ = write!(page, " {} |", number.name);
+    });
+    page.push_str(" as | flaps | gear |\n|---|");
+    page.push_str(&"---|".repeat(READ.len() + 3));
+    page.push('\n');
+}
+
+/// A line of a table.
+fn line(page: &mut String, first: &str, of: impl Fn(&Number) -> f64) {
+    let _ = write!(page, "| {first} |");
+    for number in READ {
+        let _ = write!(page, " {:.*} |", number.decimals, of(number));
+    }
+}
+
+/// How it flies, in words.
+fn words(page: &mut String, outputs: &Outputs) {
+    let [nacelles, gear] = modes::words(outputs);
+    let flaps_deg = engine::units::degrees(outputs.actuators.flap_rad);
+    let _ = writeln!(page, " {nacelles} | {flaps_deg:.0}° | {gear} |");
+}
+
+/// What is read at a tick.
+pub fn page(outputs: &Outputs) -> String {
+    let mut page = String::new();
+    head(&mut page, "time, s");
+    line(&mut page, &format!("**{:.2}**", outputs.tick as f64 * STEP_S), |number| {
+        (number.of)(outputs)
+    });
+    words(&mut page, outputs);
+    page
+}
+
+/// What is read of two flights at a tick.
+pub fn page_of_two(names: [&str; 2], both: [&Outputs; 2]) -> String {
+    let mut page = String::new();
+    head(&mut page, &format!("at {:.2} s", both[0].tick as f64 * STEP_S));
+    for (name, outputs) in names.into_iter().zip(both) {
+        line(&mut page, &format!("**{name}**"), |number| (number.of)(outputs));
+        words(&mut page, outputs);
+    }
+    line(&mut page, "difference", |number| {
+        let apart = (number.of)(both[1]) - (number.of)(both[0]);
+        if number.name.starts_with("heading") { around(apart) } else { apart }
+    });
+    page.push_str(" | | |\n");
+    page
+}
+
+/// The shorter way round, deg.
+fn around(apart_deg: f64) -> f64 {
+    (apart_deg + 180.0).rem_euclid(360.0) - 180.0
+}
+
+/// Says that pages are Markdown.
+pub fn send_still(recording: &RecordingStream, entity: &str) -> RecordingStreamResult<()> {
+    let markdown = TextDocument::update_fields().with_media_type(MediaType::markdown());
+    recording.log_static(entity, &markdown)
+}
+
+/// Pages that wait to be written.
+#[derive(Default)]
+pub struct Pages {
+    ticks: Vec<u64>,
+    pages: Vec<String>,
+}
+
+impl Pages {
+    /// Adds one.
+    pub fn add(&mut self, tick: u64, page: String) {
+        self.ticks.push(tick);
+        self.pages.push(page);
+    }
+
+    /// Writes them.
+    pub fn flush(&mut self, canvas: &mut Canvas, entity: &str) {
+        let pages = std::mem::take(&mut self.pages);
+        if pages.is_empty() {
+            return;
+        }
+        let columns = TextDocument::update_fields()
+            .with_many_text(pages)
+            .columns_of_unit_batches()
+            .map(Vec::from_iter);
+        canvas.send(entity, &times(&self.ticks), columns);
+        self.ticks.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outputs(heading_deg: f64) -> Outputs {
+        let mut outputs = Outputs { tick: 500, ..Outputs::default() };
+        outputs.euler.heading_rad = heading_deg.to_radians();
+        outputs.height_above_ground_m = 12.34;
+        outputs
+    }
+
+    fn cells(line: &str) -> Vec<&str> {
+        line.split('|').map(str::trim).collect()
+    }
+
+    #[test]
+    fn every_number_stands_below_its_name() {
+        let page = page(&outputs(350.0));
+        let lines: Vec<Vec<&str>> = page.lines().map(cells).collect();
+        assert_eq!(lines.len(), 3, "{page}");
+        assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{page}");
+        let of = |name: &str| {
+            let place = lines[0].iter().position(|cell| *cell == name).expect(name);
+            lines[2][place]
+        };
+        assert_eq!(of("time, s"), "**2.00**");
+        assert_eq!(of("height, m"), "12.3");
+        assert_eq!(of("heading, deg"), "350");
+        assert_eq!(of("as"), "helicopter");
+    }
+
+    #[test]
+    fn of_two_the_difference_goes_the_shorter_way_round() {
+        let page = page_of_two(["a", "b"], [&outputs(350.0), &outputs(10.0)]);
+        let lines: Vec<Vec<&str>> = page.lines().map(cells).collect();
+        assert_eq!(lines.len(), 5, "{page}");
+        assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{page}");
+        let place = lines[0].iter().position(|cell| *cell == "heading, deg").expect("a column");
+        assert_eq!(lines[4][place], "20");
+    }
+}
