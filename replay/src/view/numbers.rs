@@ -59,7 +59,7 @@ fn line(page: &mut String, first: &str, of: impl Fn(&Number) -> f64) {
 /// How it flies, in words.
 fn words(page: &mut String, outputs: &Outputs) {
     let [nacelles, gear] = modes::words(outputs);
-    let flaps_deg = engine::units::degrees(outputs.actuators.flap_rad);
+    let flaps_deg = degrees(outputs.actuators.flap_rad);
     let _ = writeln!(page, " {nacelles} | {flaps_deg:.0}° | {gear} |");
 }
 
