@@ -16,7 +16,7 @@
 //! Stick aft, stick right, right pedal, collective up, nacelles towards the helicopter are positive.
 //!
 //! # Assumptions
-//! Trim switches move at 0.5 in/s of ±4.8 in unless the map says otherwise (`controls.md` of the data: [E]).
+//! Trim switches move at 0.5 in/s of ±4.8 in unless the map says otherwise (`controls.md` of the data, an estimate).
 
 mod codes;
 mod lists;

@@ -59,10 +59,10 @@ impl Flying {
         let start = aircraft::start("scenario.toml", &scenario_toml).map_err(told)?;
         let fuel_kg_max = aircraft.weight_balance.fuel_kg_max;
         if let Some(fuel_kg) = start.fuel_kg
- && fuel_kg > fuel_kg_max {
+            && fuel_kg > fuel_kg_max
+        {
             return Err(format!(
-                "fuel_lb: {:.0} kg of fuel: the tanks hold {fuel_kg_max:.0} kg",
-                fuel_kg
+                "fuel_lb: {fuel_kg:.0} kg of fuel: the tanks hold {fuel_kg_max:.0} kg"
             ));
         }
         let setup = Setup { aircraft_toml, cockpit_toml, scenario_toml };

@@ -12,7 +12,9 @@ fn main() -> Result<(), LogError> {
         return Ok(());
     };
     let mut flight = logs::open(Path::new(&path), OpenOptions::default())?;
-    println!("{} of {}", flight.identity.version, flight.identity.commit);
+    for (key, fact) in &flight.identity.0 {
+        println!("{key}: {fact}");
+    }
     while let Some(tick) = flight.next_tick()? {
         let state = &tick.record.state;
         if state.tick.is_multiple_of(250) {

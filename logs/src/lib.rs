@@ -1,7 +1,7 @@
 //! The flight log: one flight, one MCAP file that holds all that is needed to refly it and opens
 //! without conversion in other people's viewers.
 //!
-//! The only crate that knows MCAP. [`FlightWriter`] writes, [`open`] reads; [`channels`] says what a log
+//! The only crate that knows MCAP. [`FlightWriter`] writes, [`open`](open()) reads; [`channels`] says what a log
 //! holds, [`records`] what is recorded, [`view`] what is added for viewers, [`fields`] what a struct's
 //! numbers are called.
 //!

@@ -89,10 +89,10 @@ impl Flight {
         let begins = files::start("scenario.toml", &scenario_toml).map_err(told)?;
         let fuel_kg_max = aircraft.params.weight_balance.fuel_kg_max;
         if let Some(fuel_kg) = begins.fuel_kg
- && fuel_kg > fuel_kg_max {
+            && fuel_kg > fuel_kg_max
+        {
             return Err(refused(format!(
-                "scenario: fuel of {:.0} kg: the tanks hold {fuel_kg_max:.0} kg",
-                fuel_kg
+                "scenario: fuel of {fuel_kg:.0} kg: the tanks hold {fuel_kg_max:.0} kg"
             )));
         }
         let (aircraft_toml, cockpit_toml) = (aircraft.text().into(), map_toml()?);

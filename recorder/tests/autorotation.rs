@@ -41,7 +41,7 @@ fn way_down(xv15: &Aircraft, speed_kt: f64, altitude_ft: f64) -> Story {
     );
     let scenario = format!("{}\n{trim}", aircraft::DEFAULT_SCENARIO);
     let start = aircraft::start("scenario.toml", &scenario).unwrap_or_else(|e| panic!("{e}"));
-    let pilot = Pilot::named("land", &xv15.cockpit, &xv15).expect("land");
+    let pilot = Pilot::named("land", &xv15.cockpit, xv15).expect("land");
     let controllers: Vec<Box<dyn Controller>> = vec![Box::new(pilot), Box::new(EnginesStop)];
     let mut story = Story {
         rpm: [f64::INFINITY, 0.0],

@@ -4,7 +4,7 @@
 //! ```text
 //! V_V = c·v·(R/r)²·n        c: mean over the fin's height of what stands in the wake, 0 … 1
 //! ```
-//! r/R, and where the wake goes, are those of [`wake_course`](super::wake_course); by continuity
+//! r/R, and where the wake goes, are those of `wake_course`; by continuity
 //! the air in it goes as much faster as it has grown narrower.
 //! # Signs
 //! The component's velocity through the wake, as in [`rotor_wake`](super::rotor_wake): along the thrust.

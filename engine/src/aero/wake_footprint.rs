@@ -1,6 +1,6 @@
 //! Wake footprint: which part of a half wing stands in its rotor's wake.
 //!
-//! Where the wake goes is said by [`wake_course`](super::wake_course).
+//! Where the wake goes is said by `wake_course`.
 //! # Assumptions
 //! The wing is out of the wake from 33 kt on, where a wake of one velocity throughout would
 //! still wash half of it at 40 kt. The reference's printouts have nothing of it in the wake at 40 kt;

@@ -21,7 +21,7 @@
 //! are those of the centre of gravity and not the half wing's own: taking both would count the
 //! damping twice. In the source they are those of the whole wing (it has lift and drag of the part in the
 //! wake and of the part outside, but one rolling and one yawing moment of wing and pylons): the part in
-//! the wake, as [`wake_footprint`] has it, adds to them what its air is faster by. With Clp = −.774, which
+//! the wake, as `wake_footprint` has it, adds to them what its air is faster by. With Clp = −.774, which
 //! is −a/6 of strips with the wing's own slope, that is all of the damping in hover, where the coefficients have
 //! no air, and 2 % of it as an aeroplane; its whole motion there would count two thirds of the wing twice.
 //! Pitching has no coefficient, so that the part in the wake sees all of it. The source gives

@@ -18,7 +18,7 @@
 //! As an aeroplane a degree of collective takes more torque, and the governor alone moves it. As a
 //! helicopter it must be slow: the engines' power comes later than the lever's collective, and what a
 //! quick governor holds of the rotor speed meanwhile it takes of the thrust, which in flight follows
-//! the lever at once [TM89428]. Ω_ref moves to a newly selected speed at a fixed rate; speeds other than the
+//! the lever at once \[TM89428\]. Ω_ref moves to a newly selected speed at a fixed rate; speeds other than the
 //! helicopter's are granted only with the nacelles down. The collective is never below θ_Q, the pitch of
 //! least torque: beyond it less pitch takes more torque, and the governor would work the wrong way.
 //! # Signs

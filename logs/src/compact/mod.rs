@@ -2,11 +2,11 @@
 //! them again.
 //!
 //! A compacted log is an MCAP file, too. Keyframes are on `/state`, events and their words where they
-//! always are, so that viewers still show a flight; the rest is in [`block`]s on `/compact`. It says
+//! always are, so that viewers still show a flight; the rest is in blocks on `/compact`. It says
 //! the order of all messages and where the writer closed its chunks: expanded, it is the file that was
 //! compacted, byte for byte, and it says so only if the file's hash is the one that was kept.
 //!
-//! Readers take a compacted log for the log it was: [`Expander`] flies the states again while it is
+//! Readers take a compacted log for the log it was: `Expander` flies the states again while it is
 //! read. Between keyframes a digest that was recorded meets a state that was flown again, and the
 //! digest chain tells whether they belong together.
 
