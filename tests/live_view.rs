@@ -114,7 +114,7 @@ fn told_to(program: &Path, port: u16, saved: &Path) -> String {
         .stderr(Stdio::null())
         .spawn()
         .expect("rerun reads");
-    // It listens for ever; what was there comes first.
+    // It listens for ever; what was there comes first, on a busy machine with pauses of seconds.
     let mut size = 0;
     let mut same = 0;
     wait("the recording is read", || {
@@ -122,7 +122,7 @@ fn told_to(program: &Path, port: u16, saved: &Path) -> String {
         let now = fs::metadata(saved).map_or(0, |file| file.len());
         same = if now > 0 && now == size { same + 1 } else { 0 };
         size = now;
-        same >= 4
+        same >= 20
     });
     let _ = reading.kill();
     let _ = reading.wait();

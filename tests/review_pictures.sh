@@ -70,7 +70,7 @@ picture() {
     "$viewing" view "$@" --viewer "$work/viewer" --force
     read -r process port <"$work/listens"
     # What was loaded is drawn by then.
-    sleep "${SETTLES:-20}"
+    sleep "${SETTLES:-40}"
     timeout 120 target/rerun-0.36.3/bin/python - "$port" "$work/$name.png" <<'PYTHON'
 import os, sys, time
 from rerun.experimental import ViewerClient
