@@ -23,6 +23,7 @@ fi
 begun=$SECONDS
 fmi/build.sh target/fmu
 cargo build --quiet --release --locked --manifest-path fmi/Cargo.toml --target-dir target/python --example native
+cargo test --quiet --release --locked --manifest-path fmi/Cargo.toml --target-dir target/python --lib
 echo "FMU built in $((SECONDS - begun)) s"
 
 begun=$SECONDS

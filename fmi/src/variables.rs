@@ -237,7 +237,7 @@ fn inputs(table: &mut Vec<Variable>) {
         let name = format!("drive.{}", field.path);
         let description = format!(
             "{} Added to what the aircraft's own computer asks for unless absolute_inputs",
-            said_of("Commands", &field.path)
+            said_of("Commands", "elevator_rad", &field.path)
         );
         let target = Target::Command(place);
         add(name, target, &unit_of(&field.path), Value::Real(0.0), description);
@@ -247,7 +247,7 @@ fn inputs(table: &mut Vec<Variable>) {
 fn outputs(table: &mut Vec<Variable>) {
     for (place, field) in fields(&Outputs::default()).into_iter().flatten().enumerate() {
         table.push(Variable {
-            description: said_of("Outputs", &field.path),
+            description: said_of("Outputs", "height_above_ground_m", &field.path),
             unit: unit_of(&field.path),
             name: field.path,
             role: Role::Output { whole: !matches!(field.value, Number::F64(_)) },
@@ -257,10 +257,13 @@ fn outputs(table: &mut Vec<Variable>) {
     }
 }
 
-/// What the sources say of a struct's field, of the first name of a path.
-fn said_of(of: &str, path: &str) -> String {
+/// What the sources say of a struct's field, of the first name of a path. Blocks have outputs, too: a field tells which
+/// struct of that name is meant.
+fn said_of(of: &str, having: &str, path: &str) -> String {
     let first = path.split(['.', '[']).next().unwrap_or_default();
-    let fields = DESCRIBED.iter().find(|(name, _)| *name == of).map(|(_, fields)| *fields);
+    let meant = |fields: &[(&str, &str)]| fields.iter().any(|(name, _)| *name == having);
+    let fields = DESCRIBED.iter().find(|(name, fields)| *name == of && meant(fields));
+    let fields = fields.map(|(_, fields)| *fields);
     let said = fields.into_iter().flatten().find(|(name, _)| *name == first);
     said.map_or_else(String::new, |(_, said)| (*said).into())
 }
