@@ -51,12 +51,12 @@ enum Kind {
 }
 
 const RECORDED: [Recorded; 6] = [
-    Recorded { kind: Kind::Flown, first: 0x6102_647f_2802_0de7, all: 0x1f90_420a_0c21_69ab },
-    Recorded { kind: Kind::Envelope, first: 0x29b5_2904_6ff3_f643, all: 0x1b82_67de_1736_87e2 },
-    Recorded { kind: Kind::Stalled, first: 0xedab_9e3e_e74a_d51f, all: 0xecb5_fff4_d038_fde4 },
-    Recorded { kind: Kind::Zeros, first: 0xabfd_82d9_839d_e61f, all: 0x73c7_2111_6859_a4a5 },
-    Recorded { kind: Kind::Beyond, first: 0x953d_788e_5538_03ef, all: 0xf231_430c_3e26_972c },
-    Recorded { kind: Kind::Broken, first: 0xa4f1_1451_d8d0_784f, all: 0x9eb1_1f77_a52a_da15 },
+    Recorded { kind: Kind::Flown, first: 0x89d9_bea4_821d_c3cd, all: 0x128a_ca11_ad10_5d94 },
+    Recorded { kind: Kind::Envelope, first: 0x047f_b480_502a_251f, all: 0x3eab_b215_82a5_0cec },
+    Recorded { kind: Kind::Stalled, first: 0x2f68_f21e_97db_3974, all: 0x0192_2257_9a52_0c42 },
+    Recorded { kind: Kind::Zeros, first: 0xc903_995e_f860_5522, all: 0x01ee_f31d_3ee0_adf6 },
+    Recorded { kind: Kind::Beyond, first: 0xac74_1168_27d1_d4e1, all: 0x26c3_00ac_0c1e_e2da },
+    Recorded { kind: Kind::Broken, first: 0x4523_9738_3274_e598, all: 0x004a_7620_9406_329f },
 ];
 
 /// The bits of what has been seen so far (FNV-1a, by words of eight bytes).

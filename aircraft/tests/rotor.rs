@@ -247,6 +247,7 @@ fn no_flight_makes_the_rotor_infinite() {
 
 /// From rest to 110 % in half a minute, the cyclic stirring the disc onto its stop at every speed; then at rest.
 #[test]
+#[allow(clippy::disallowed_methods, reason = "extremes, looked at and not flown")]
 fn a_run_up_on_the_gimbal_stop_stays_whole_and_comes_to_rest() {
     let params = xv15();
     let blade = params.blade();

@@ -213,7 +213,7 @@ pub fn helicopter(aircraft: &Aircraft, book: &mut Book) {
          rotor's torque agrees at these advance ratios within .0002 of C_Q/sigma, 13 kW a rotor \
          (`aircraft`, test `rotor`).",
     )
-    .settled_by(&elsewhere(aircraft));
+    .settled_by(elsewhere(aircraft));
     for (speed_kt, pitch_deg, stick, thrust_lbf) in PRINTED {
         let found = at(aircraft, 90.0, speed_kt * KNOT_MPS);
         let of = |f: &dyn Fn(&Trim) -> f64| found.as_ref().map(f).map_err(Clone::clone);
