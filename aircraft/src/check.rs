@@ -2,6 +2,7 @@
 
 use engine::inertia::Inertia;
 use engine::math::PI;
+use engine::table::Invalid;
 
 use crate::error::{ConfigError, Problem};
 use crate::tree::{Node, Value};
@@ -146,7 +147,7 @@ pub(crate) fn aircraft(
     tree: &Node,
     aircraft: &engine::aircraft::Params,
 ) -> Result<(), ConfigError> {
-    if let Some((name, expected)) = aircraft.fault() {
+    if let Err(Invalid { key: name, expected }) = aircraft.validate() {
         return Err(error(file, find(tree, name), Problem::BadTable(expected)));
     }
     let weights = &aircraft.weight_balance;

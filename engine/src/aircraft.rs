@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use crate::aero::{fuselage, horizontal_stabilizer, rotor_wake, vertical_stabilizers, wing_pylon};
 use crate::rotors::blade;
+use crate::table::{Invalid, all_valid};
 use crate::{
     actuators, cockpit, display, engines, envelope, fcc, landing_gear, pilot, rotors,
     weight_balance,
@@ -99,46 +100,47 @@ pub struct Params {
 }
 
 impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
         let mixer = &self.fcc.mixer;
         let pitch_trim = &self.fcc.scas.pitch_trim;
-        let tables = [
-            ("fcc.scas.pitch_trim.attitude_by_tilt", pitch_trim.attitude_by_tilt_norm.fault()),
-            ("fcc.scas.pitch_trim.stick_by_tilt", pitch_trim.stick_by_tilt_m_per_rad.fault()),
-            ("fcc.scas.pitch_trim.speed_by_tilt", pitch_trim.speed_by_tilt_mps_per_rad.fault()),
-            ("fcc.mixer.collective_per_lever", mixer.collective_per_lever_rad_per_m.fault()),
+        all_valid([
+            ("fcc.scas.pitch_trim.attitude_by_tilt", pitch_trim.attitude_by_tilt_norm.validate()),
+            ("fcc.scas.pitch_trim.stick_by_tilt", pitch_trim.stick_by_tilt_m_per_rad.validate()),
+            ("fcc.scas.pitch_trim.speed_by_tilt", pitch_trim.speed_by_tilt_mps_per_rad.validate()),
+            ("fcc.mixer.collective_per_lever", mixer.collective_per_lever_rad_per_m.validate()),
             (
                 "fcc.mixer.collective_per_lateral_stick",
-                mixer.collective_per_lateral_stick_rad_per_m.fault(),
+                mixer.collective_per_lateral_stick_rad_per_m.validate(),
             ),
             (
                 "fcc.mixer.cyclic_per_longitudinal_stick",
-                mixer.cyclic_per_longitudinal_stick_rad_per_m.fault(),
+                mixer.cyclic_per_longitudinal_stick_rad_per_m.validate(),
             ),
-            ("fcc.mixer.cyclic_per_pedal", mixer.cyclic_per_pedal_rad_per_m.fault()),
-            ("fcc.mixer.lateral_cyclic_rad", mixer.lateral_cyclic_rad.fault()),
-            ("fcc.mixer.lateral_cyclic_norm", mixer.lateral_cyclic_norm.fault()),
-            ("rotors.blade", self.rotors.blade.fault()),
-            ("rotors.bending", self.rotors.bending.fault()),
-            ("rotors.inflow.download_near_ground", self.rotors.inflow.download_near_ground.fault()),
-            ("fcc.governor.proportional", self.fcc.governor.proportional_rad_per_radps.fault()),
-            ("fcc.governor.integral", self.fcc.governor.integral_rad_per_rad.fault()),
-            ("fcc.governor.lever_bottom", self.fcc.governor.lever_bottom_rad.fault()),
-            ("actuators.nacelle", self.actuators.nacelle_radps.fault()),
-            ("engines.power_by_lever", self.engines.power_by_lever_norm.fault()),
-        ];
-        tables
-            .into_iter()
-            .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
-            .or_else(|| self.rotors.other_rotor.fault())
-            .or_else(|| self.rotor_wake.fault())
-            .or_else(|| self.wing_pylon.fault())
-            .or_else(|| self.fuselage.fault())
-            .or_else(|| self.horizontal_stabilizer.fault())
-            .or_else(|| self.vertical_stabilizers.fault())
-            .or_else(|| self.envelope.fault())
-            .or_else(|| self.pilot.fault())
-            .or_else(|| self.display.fault())
+            ("fcc.mixer.cyclic_per_pedal", mixer.cyclic_per_pedal_rad_per_m.validate()),
+            ("fcc.mixer.lateral_cyclic_rad", mixer.lateral_cyclic_rad.validate()),
+            ("fcc.mixer.lateral_cyclic_norm", mixer.lateral_cyclic_norm.validate()),
+            ("rotors.blade", self.rotors.blade.validate()),
+            ("rotors.bending", self.rotors.bending.validate()),
+            (
+                "rotors.inflow.download_near_ground",
+                self.rotors.inflow.download_near_ground.validate(),
+            ),
+            ("fcc.governor.proportional", self.fcc.governor.proportional_rad_per_radps.validate()),
+            ("fcc.governor.integral", self.fcc.governor.integral_rad_per_rad.validate()),
+            ("fcc.governor.lever_bottom", self.fcc.governor.lever_bottom_rad.validate()),
+            ("actuators.nacelle", self.actuators.nacelle_radps.validate()),
+            ("engines.power_by_lever", self.engines.power_by_lever_norm.validate()),
+        ])
+        .and_then(|()| self.rotors.other_rotor.validate())
+        .and_then(|()| self.rotor_wake.validate())
+        .and_then(|()| self.wing_pylon.validate())
+        .and_then(|()| self.fuselage.validate())
+        .and_then(|()| self.horizontal_stabilizer.validate())
+        .and_then(|()| self.vertical_stabilizers.validate())
+        .and_then(|()| self.envelope.validate())
+        .and_then(|()| self.pilot.validate())
+        .and_then(|()| self.display.validate())
     }
 }

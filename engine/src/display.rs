@@ -19,6 +19,7 @@ use crate::actuators::{self, Actuator};
 use crate::frames::{Structural, Vec3};
 use crate::landing_gear::Strut;
 use crate::math::{FRAC_PI_2, max};
+use crate::table::Invalid;
 
 /// The outer shape.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -146,8 +147,9 @@ pub struct Nacelles {
 }
 
 impl Params {
-    /// Which of the shapes cannot be drawn, and what was expected, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
         const ASCENDING: &str =
             "two cross-sections at least, from front to back, not turned inside out";
         const RISING: &str =
@@ -180,7 +182,9 @@ impl Params {
             ("display.nacelles.section", RISING, up(&self.nacelles.section_m)),
             ("display.nacelles.spinner", RISING, up(&self.nacelles.spinner_m)),
         ];
-        faults.into_iter().find_map(|(name, expected, wrong)| wrong.then_some((name, expected)))
+        faults.into_iter().try_for_each(|(key, expected, wrong)| {
+            (!wrong).then_some(()).ok_or(Invalid { key, expected })
+        })
     }
 }
 

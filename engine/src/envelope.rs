@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 use crate::controls::FLAP_DETENT_LAST;
 use crate::math::min;
-use crate::table::Table1;
+use crate::table::{Invalid, Table1, all_valid};
 
 /// Not higher than this above the ground the corridor is not asked for, m: what the wing does there is the
 /// ground's affair.
@@ -83,26 +83,25 @@ impl Corridor {
         })
     }
 
-    fn fault(&self) -> Option<(&'static str, &'static str)> {
+    fn validate(&self) -> Result<(), Invalid> {
         const SLOWEST: &str = "envelope.corridor.calibrated_airspeed_min";
         const FASTEST: &str = "envelope.corridor.calibrated_airspeed_max";
         let limits = [
             (SLOWEST, &self.calibrated_airspeed_mps_min),
             (FASTEST, &self.calibrated_airspeed_mps_max),
         ];
-        for (name, limit) in limits {
-            if let Some(fault) = limit.fault() {
-                return Some((name, fault));
-            }
+        for (key, limit) in limits {
+            all_valid([(key, limit.validate())])?;
             if limit.y.windows(2).any(|pair| pair[0] > pair[1]) || limit.y.iter().any(|&y| y < 0.0)
             {
-                return Some((name, "airspeeds from 0 that do not fall as the mast tilts forward"));
+                let expected = "airspeeds from 0 that do not fall as the mast tilts forward";
+                return Err(Invalid { key, expected });
             }
         }
         let crossed = |tilt_rad| self.slowest_mps(tilt_rad) >= self.fastest_mps(tilt_rad);
-        self.corners_rad()
-            .any(crossed)
-            .then_some((SLOWEST, "less than the fastest airspeed at every mast tilt"))
+        let expected = "less than the fastest airspeed at every mast tilt";
+        let is_crossed = self.corners_rad().any(crossed);
+        (!is_crossed).then_some(()).ok_or(Invalid { key: SLOWEST, expected })
     }
 }
 
@@ -167,12 +166,12 @@ pub struct Model {
 }
 
 impl Params {
-    /// Which of the limits cannot be used, and what was expected, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        self.corridor.fault().or_else(|| {
-            let fault = self.rotors.short_torque_n_m_max.fault()?;
-            Some(("envelope.rotors.short_torque_max", fault))
-        })
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        self.corridor.validate()?;
+        let short_torque = self.rotors.short_torque_n_m_max.validate();
+        all_valid([("envelope.rotors.short_torque_max", short_torque)])
     }
 }
 
@@ -213,21 +212,21 @@ mod tests {
 
     #[test]
     fn limits_that_fall_or_cross_are_refused() {
-        assert_eq!(corridor().fault(), None);
+        assert_eq!(corridor().validate(), Ok(()));
         let mut falling = corridor();
         falling.calibrated_airspeed_mps_max.y[1] = 29.0;
         assert_eq!(
-            falling.fault().map(|at| at.0),
+            falling.validate().err().map(|at| at.key),
             Some("envelope.corridor.calibrated_airspeed_max")
         );
         // Not at the corners of its own limit: at one of the other's.
         let mut crossed = corridor();
         crossed.calibrated_airspeed_mps_max = Table1 { x: vec![0.0, 1.0], y: vec![19.0, 61.0] };
-        assert_eq!(crossed.fault(), None);
+        assert_eq!(crossed.validate(), Ok(()));
         crossed.calibrated_airspeed_mps_min =
             Table1 { x: vec![0.0, 0.4, 1.0], y: vec![0.0, 40.0, 41.0] };
         assert_eq!(
-            crossed.fault().map(|at| at.0),
+            crossed.validate().err().map(|at| at.key),
             Some("envelope.corridor.calibrated_airspeed_min")
         );
     }

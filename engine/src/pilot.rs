@@ -11,6 +11,8 @@
 
 use serde::Deserialize;
 
+use crate::table::Invalid;
+
 /// Speeds to fly, and the aircraft's answer to attitude and lever.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -56,8 +58,9 @@ pub struct Params {
 }
 
 impl Params {
-    /// Which pair of numbers does not go together, and what was expected, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
         [
             (
                 "pilot.over_a_spot_max",
@@ -68,6 +71,6 @@ impl Params {
             ("pilot.cushion", self.cushion_m < self.flare_m, "lower than flare_m"),
         ]
         .into_iter()
-        .find_map(|(name, holds, expected)| (!holds).then_some((name, expected)))
+        .try_for_each(|(key, holds, expected)| holds.then_some(()).ok_or(Invalid { key, expected }))
     }
 }

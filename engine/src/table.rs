@@ -50,6 +50,27 @@ fn locate(x: &[f64], at: f64) -> (usize, f64) {
     (i, crate::math::ramp(at, x[i], x[i + 1]))
 }
 
+/// What in an aircraft file cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Invalid {
+    /// Its key in the file.
+    pub key: &'static str,
+    /// What is expected there.
+    pub expected: &'static str,
+}
+
+/// Whether all of these can be used, by their keys.
+///
+/// # Errors
+/// The first that cannot.
+pub fn all_valid(
+    parts: impl IntoIterator<Item = (&'static str, Result<(), &'static str>)>,
+) -> Result<(), Invalid> {
+    parts
+        .into_iter()
+        .try_for_each(|(key, found)| found.map_err(|expected| Invalid { key, expected }))
+}
+
 impl Table1 {
     /// The value at `x`.
     pub fn at(&self, x: f64) -> f64 {
@@ -69,12 +90,13 @@ impl Table1 {
         }
     }
 
-    /// Why the table cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// # Errors
+    /// What is expected of a table that can be used, if it is not one.
+    pub fn validate(&self) -> Result<(), &'static str> {
         if self.x.len() != self.y.len() {
-            Some("as many values as arguments")
+            Err("as many values as arguments")
         } else {
-            axis_fault(&self.x)
+            ascending(&self.x)
         }
     }
 }
@@ -89,12 +111,13 @@ impl Table2 {
         low + s * (along(&self.z[i + 1]) - low)
     }
 
-    /// Why the table cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// # Errors
+    /// What is expected of a table that can be used, if it is not one.
+    pub fn validate(&self) -> Result<(), &'static str> {
         if self.x.len() != self.z.len() || self.z.iter().any(|row| row.len() != self.y.len()) {
-            Some("one row per first argument, one column per second")
+            Err("one row per first argument, one column per second")
         } else {
-            axis_fault(&self.x).or_else(|| axis_fault(&self.y))
+            ascending(&self.x).and_then(|()| ascending(&self.y))
         }
     }
 }
@@ -114,26 +137,27 @@ impl Table3 {
         if r > 0.0 { low + r * (block(&self.w[i + 1]) - low) } else { low }
     }
 
-    /// Why the table cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// # Errors
+    /// What is expected of a table that can be used, if it is not one.
+    pub fn validate(&self) -> Result<(), &'static str> {
         let block_fits = |rows: &Vec<Vec<f64>>| {
             rows.len() == self.y.len() && rows.iter().all(|row| row.len() == self.z.len())
         };
         if self.x.len() != self.w.len() || !self.w.iter().all(block_fits) {
-            Some("one block per first argument, one row per second, one column per third")
+            Err("one block per first argument, one row per second, one column per third")
         } else {
-            axis_fault(&self.x).or_else(|| axis_fault(&self.y)).or_else(|| axis_fault(&self.z))
+            ascending(&self.x).and_then(|()| ascending(&self.y)).and_then(|()| ascending(&self.z))
         }
     }
 }
 
-fn axis_fault(axis: &[f64]) -> Option<&'static str> {
+fn ascending(axis: &[f64]) -> Result<(), &'static str> {
     if axis.len() < 2 {
-        Some("two points at least")
+        Err("two points at least")
     } else if axis.windows(2).any(|w| w[0] >= w[1]) {
-        Some("ascending arguments")
+        Err("ascending arguments")
     } else {
-        None
+        Ok(())
     }
 }
 
@@ -173,7 +197,7 @@ mod tests {
         };
         assert!((table.at(0.5, 0.5, 0.5) - 3.5).abs() < 1e-15);
         assert!((table.at(9.0, -1.0, 9.0) - 5.0).abs() < 1e-15);
-        assert_eq!(table.fault(), None);
+        assert_eq!(table.validate(), Ok(()));
     }
 
     #[test]

@@ -21,7 +21,7 @@ use super::{LocalFlow, ahead};
 use crate::frames::{Load, Structural, Vec3};
 use crate::math::{FRAC_PI_2, PI, sign, sin_cos, square};
 use crate::motion::Motion;
-use crate::table::Table1;
+use crate::table::{Invalid, Table1, all_valid};
 
 /// What the fuselage is. Tables over α are printed for ±90°, those over β for positive ones.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -75,21 +75,20 @@ pub struct Inputs {
 }
 
 impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        [
-            ("fuselage.lift", &self.lift_m2),
-            ("fuselage.drag", &self.drag_m2),
-            ("fuselage.pitching", &self.pitching_m3),
-            ("fuselage.lift_by_sideslip", &self.lift_by_sideslip_m2),
-            ("fuselage.drag_by_sideslip", &self.drag_by_sideslip_m2),
-            ("fuselage.pitching_by_sideslip", &self.pitching_by_sideslip_m3),
-            ("fuselage.side", &self.side_m2),
-            ("fuselage.rolling", &self.rolling_m3),
-            ("fuselage.yawing", &self.yawing_m3),
-        ]
-        .into_iter()
-        .find_map(|(name, table)| table.fault().map(|fault| (name, fault)))
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        all_valid([
+            ("fuselage.lift", self.lift_m2.validate()),
+            ("fuselage.drag", self.drag_m2.validate()),
+            ("fuselage.pitching", self.pitching_m3.validate()),
+            ("fuselage.lift_by_sideslip", self.lift_by_sideslip_m2.validate()),
+            ("fuselage.drag_by_sideslip", self.drag_by_sideslip_m2.validate()),
+            ("fuselage.pitching_by_sideslip", self.pitching_by_sideslip_m3.validate()),
+            ("fuselage.side", self.side_m2.validate()),
+            ("fuselage.rolling", self.rolling_m3.validate()),
+            ("fuselage.yawing", self.yawing_m3.validate()),
+        ])
     }
 }
 

@@ -7,7 +7,7 @@ use super::polar::Polar;
 use crate::frames::{Body, Structural, Vec3};
 use crate::mast::TiltedMast;
 use crate::motion::Motion;
-use crate::table::{Table1, Table2};
+use crate::table::{Invalid, Table1, Table2, all_valid};
 
 /// What a half wing is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -101,26 +101,25 @@ pub struct Inputs {
 }
 
 impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        [
-            ("wing_pylon.lift", self.lift.fault()),
-            ("wing_pylon.drag", self.drag.fault()),
-            ("wing_pylon.pitching_moment", self.pitching_moment.fault()),
-            ("wing_pylon.drag_at_no_lift", self.drag_at_no_lift.fault()),
-            ("wing_pylon.rolling_by_sideslip", self.rolling_by_sideslip_per_rad.fault()),
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        all_valid([
+            ("wing_pylon.lift", self.lift.validate()),
+            ("wing_pylon.drag", self.drag.validate()),
+            ("wing_pylon.pitching_moment", self.pitching_moment.validate()),
+            ("wing_pylon.drag_at_no_lift", self.drag_at_no_lift.validate()),
+            ("wing_pylon.rolling_by_sideslip", self.rolling_by_sideslip_per_rad.validate()),
             (
                 "wing_pylon.rolling_by_sideslip_and_lift",
-                self.rolling_by_sideslip_and_lift_per_rad.fault(),
+                self.rolling_by_sideslip_and_lift_per_rad.validate(),
             ),
-            ("wing_pylon.flaperon_factor", self.flaperon_factor.fault()),
-            ("wing_pylon.lift_loss_by_flaperon", self.lift_loss_by_flaperon_per_rad.fault()),
-            ("wing_pylon.yawing_by_flaperon", self.yawing_by_flaperon_per_rad.fault()),
-            ("wing_pylon.yawing_by_flaperon_and_lift", self.yawing_by_flaperon_and_lift.fault()),
-            ("wing_pylon.interference", self.interference_m2.fault()),
-            ("wing_pylon.platform_factor", self.platform_factor.fault()),
-        ]
-        .into_iter()
-        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+            ("wing_pylon.flaperon_factor", self.flaperon_factor.validate()),
+            ("wing_pylon.lift_loss_by_flaperon", self.lift_loss_by_flaperon_per_rad.validate()),
+            ("wing_pylon.yawing_by_flaperon", self.yawing_by_flaperon_per_rad.validate()),
+            ("wing_pylon.yawing_by_flaperon_and_lift", self.yawing_by_flaperon_and_lift.validate()),
+            ("wing_pylon.interference", self.interference_m2.validate()),
+            ("wing_pylon.platform_factor", self.platform_factor.validate()),
+        ])
     }
 }

@@ -25,7 +25,7 @@ use super::{LocalFlow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{atan2, max, min, sqrt, square, wrap_angle};
 use crate::motion::Motion;
-use crate::table::{Table1, Table2, Table3};
+use crate::table::{Invalid, Table1, Table2, Table3, all_valid};
 use crate::units::DEGREE_RAD as DEG;
 
 /// Elevator angle from which it loses effect.
@@ -113,21 +113,20 @@ pub struct Inputs {
 }
 
 impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        [
-            ("horizontal_stabilizer.elevator_by_mach", self.elevator_by_mach.fault()),
-            ("horizontal_stabilizer.lift", self.lift.fault()),
-            ("horizontal_stabilizer.lift_by_mach", self.lift_by_mach.fault()),
-            ("horizontal_stabilizer.drag", self.drag.fault()),
-            ("horizontal_stabilizer.drag_by_mach", self.drag_by_mach.fault()),
-            ("horizontal_stabilizer.sideslip_factor", self.sideslip_factor.fault()),
-            ("horizontal_stabilizer.downwash", self.downwash_rad.fault()),
-            ("horizontal_stabilizer.pressure_ratio", self.pressure_ratio.fault()),
-            ("horizontal_stabilizer.pressure_factor", self.pressure_factor.fault()),
-        ]
-        .into_iter()
-        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        all_valid([
+            ("horizontal_stabilizer.elevator_by_mach", self.elevator_by_mach.validate()),
+            ("horizontal_stabilizer.lift", self.lift.validate()),
+            ("horizontal_stabilizer.lift_by_mach", self.lift_by_mach.validate()),
+            ("horizontal_stabilizer.drag", self.drag.validate()),
+            ("horizontal_stabilizer.drag_by_mach", self.drag_by_mach.validate()),
+            ("horizontal_stabilizer.sideslip_factor", self.sideslip_factor.validate()),
+            ("horizontal_stabilizer.downwash", self.downwash_rad.validate()),
+            ("horizontal_stabilizer.pressure_ratio", self.pressure_ratio.validate()),
+            ("horizontal_stabilizer.pressure_factor", self.pressure_factor.validate()),
+        ])
     }
 
     /// ε∞: the wing's downwash as it will be at the tail.

@@ -82,9 +82,10 @@ impl ByFlap {
         [&self.flap_0, &self.flap_20, &self.flap_40, &self.flap_75]
     }
 
-    /// Why a table cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
-        self.columns().into_iter().find_map(Table1::fault)
+    /// # Errors
+    /// What is expected, if it is not so.
+    pub fn validate(&self) -> Result<(), &'static str> {
+        self.columns().into_iter().try_for_each(Table1::validate)
     }
 }
 
@@ -131,9 +132,10 @@ impl ByMach {
         [&self.mach_0_4, &self.mach_0_5, &self.mach_0_6]
     }
 
-    /// Why a table cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
-        self.columns().into_iter().find_map(Table1::fault)
+    /// # Errors
+    /// What is expected, if it is not so.
+    pub fn validate(&self) -> Result<(), &'static str> {
+        self.columns().into_iter().try_for_each(Table1::validate)
     }
 }
 
@@ -180,11 +182,12 @@ impl Polar {
         flap.blend(column)
     }
 
-    /// Why a table cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// # Errors
+    /// What is expected, if it is not so.
+    pub fn validate(&self) -> Result<(), &'static str> {
         self.upright
-            .fault()
-            .or_else(|| self.aeroplane.fault())
-            .or_else(|| self.aeroplane_by_mach.fault())
+            .validate()
+            .and_then(|()| self.aeroplane.validate())
+            .and_then(|()| self.aeroplane_by_mach.validate())
     }
 }

@@ -21,7 +21,7 @@ use crate::frames::{Body, Vec3};
 use crate::math::{PI, max, sin_cos, square};
 use crate::motion::Motion;
 use crate::pair::Pair;
-use crate::table::{Table2, Table3};
+use crate::table::{Invalid, Table2, Table3, all_valid};
 
 /// Below this advance ratio the rotors deflect the air as at it.
 const ADVANCE_RATIO_MIN: f64 = 0.15;
@@ -49,14 +49,13 @@ pub struct Params {
 }
 
 impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        [
-            ("rotor_wake.tail_ratio", self.tail_ratio.fault()),
-            ("rotor_wake.sideslip_factor", self.sideslip_factor.fault()),
-        ]
-        .into_iter()
-        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        all_valid([
+            ("rotor_wake.tail_ratio", self.tail_ratio.validate()),
+            ("rotor_wake.sideslip_factor", self.sideslip_factor.validate()),
+        ])
     }
 }
 

@@ -33,7 +33,7 @@ use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{atan2, max, ramp, sin_cos, sqrt, square};
 use crate::motion::Motion;
 use crate::pair::Pair;
-use crate::table::{Table1, Table2, Table3};
+use crate::table::{Invalid, Table1, Table2, Table3, all_valid};
 use crate::units::DEGREE_RAD as DEG;
 
 /// Rudder angle from which it loses effect.
@@ -64,8 +64,8 @@ impl Sidewash {
         flap.blend(|i| self.columns()[i].at(mast_tilt_rad, alpha_rad, beta_rad))
     }
 
-    fn fault(&self) -> Option<&'static str> {
-        self.columns().into_iter().find_map(Table3::fault)
+    fn validate(&self) -> Result<(), &'static str> {
+        self.columns().into_iter().try_for_each(Table3::validate)
     }
 }
 
@@ -129,19 +129,18 @@ pub struct Inputs {
 }
 
 impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        [
-            ("vertical_stabilizers.side_force", self.side_force.fault()),
-            ("vertical_stabilizers.side_force_by_mach", self.side_force_by_mach.fault()),
-            ("vertical_stabilizers.drag", self.drag.fault()),
-            ("vertical_stabilizers.drag_by_mach", self.drag_by_mach.fault()),
-            ("vertical_stabilizers.rudder_by_mach", self.rudder_by_mach.fault()),
-            ("vertical_stabilizers.rotor_sidewash", self.rotor_sidewash.fault()),
-            ("vertical_stabilizers.fuselage_sidewash", self.fuselage_sidewash.fault()),
-        ]
-        .into_iter()
-        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        all_valid([
+            ("vertical_stabilizers.side_force", self.side_force.validate()),
+            ("vertical_stabilizers.side_force_by_mach", self.side_force_by_mach.validate()),
+            ("vertical_stabilizers.drag", self.drag.validate()),
+            ("vertical_stabilizers.drag_by_mach", self.drag_by_mach.validate()),
+            ("vertical_stabilizers.rudder_by_mach", self.rudder_by_mach.validate()),
+            ("vertical_stabilizers.rotor_sidewash", self.rotor_sidewash.validate()),
+            ("vertical_stabilizers.fuselage_sidewash", self.fuselage_sidewash.validate()),
+        ])
     }
 
     /// CY at Mach number .2 and below.

@@ -35,14 +35,15 @@ pub struct Params {
 const POWERS: [f64; 3] = [2.0, 3.0, 4.0];
 
 impl Params {
-    /// Why the blade cannot bend so, if so.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// # Errors
+    /// What is expected, if it is not so.
+    pub fn validate(&self) -> Result<(), &'static str> {
         let tip = self.shape_norm.iter().sum::<f64>();
         if tip.is_nan() || tip <= 0.0 {
-            return Some("a shape that is up at the tip");
+            return Err("a shape that is up at the tip");
         }
         let stiff = self.inertias(1.0, 0.0, 1.0).spring_n_m_per_rad > 0.0;
-        (!stiff).then_some("a frequency above that of a blade without stiffness")
+        stiff.then_some(()).ok_or("a frequency above that of a blade without stiffness")
     }
 
     fn coefficients(&self) -> [f64; 3] {
@@ -157,8 +158,8 @@ mod tests {
 
     #[test]
     fn a_blade_softer_than_a_string_is_refused() {
-        assert_eq!(cantilever().fault(), None);
-        assert!(Params { frequency_radps: 50.0, ..cantilever() }.fault().is_some());
-        assert!(Params { shape_norm: [1.0, -1.0, 0.0], ..cantilever() }.fault().is_some());
+        assert_eq!(cantilever().validate(), Ok(()));
+        assert!(Params { frequency_radps: 50.0, ..cantilever() }.validate().is_err());
+        assert!(Params { shape_norm: [1.0, -1.0, 0.0], ..cantilever() }.validate().is_err());
     }
 }

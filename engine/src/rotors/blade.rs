@@ -49,15 +49,18 @@ pub struct Params {
 }
 
 impl Params {
-    /// Why the blade cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// # Errors
+    /// What is expected, if it is not so.
+    pub fn validate(&self) -> Result<(), &'static str> {
         self.section
-            .fault()
-            .or_else(|| self.blade_chord_m.fault())
-            .or_else(|| self.twist_rad.fault())
-            .or_else(|| {
+            .validate()
+            .and_then(|()| self.blade_chord_m.validate())
+            .and_then(|()| self.twist_rad.validate())
+            .and_then(|()| {
                 let ends = &self.section.lift_coefficient.x;
-                (self.root_norm >= ends[0]).then_some("the root within the innermost region")
+                (self.root_norm < ends[0])
+                    .then_some(())
+                    .ok_or("the root within the innermost region")
             })
     }
 }

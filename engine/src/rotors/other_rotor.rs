@@ -24,7 +24,7 @@ use serde::Deserialize;
 
 use super::elements::Flow;
 use crate::math::{max, sqrt, square};
-use crate::table::Table1;
+use crate::table::{Invalid, Table1, all_valid};
 
 /// Rotors that stand still have no advance ratio, and divide by something, m/s at the tip.
 const TIP_MPS_MIN: f64 = 10.0;
@@ -42,14 +42,13 @@ pub struct Params {
 }
 
 impl Params {
-    /// Where a table cannot be used, and why, if so.
-    pub fn fault(&self) -> Option<(&'static str, &'static str)> {
-        [
-            ("rotors.other_rotor.downwind", self.downwind.fault()),
-            ("rotors.other_rotor.abreast", self.abreast.fault()),
-        ]
-        .into_iter()
-        .find_map(|(name, fault)| fault.map(|fault| (name, fault)))
+    /// # Errors
+    /// What cannot be used, and what is expected there.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        all_valid([
+            ("rotors.other_rotor.downwind", self.downwind.validate()),
+            ("rotors.other_rotor.abreast", self.abreast.validate()),
+        ])
     }
 }
 

@@ -54,24 +54,25 @@ pub struct Params {
 }
 
 impl Params {
-    /// Why the sections cannot be used, if so.
-    pub fn fault(&self) -> Option<&'static str> {
+    /// # Errors
+    /// What is expected, if it is not so.
+    pub fn validate(&self) -> Result<(), &'static str> {
         let (lift, drag) = (&self.lift_coefficient, &self.drag_coefficient);
-        let thickness = self.thickness_norm.fault();
-        lift.fault().or_else(|| drag.fault()).or(thickness).or_else(|| {
+        let thickness = self.thickness_norm.validate();
+        lift.validate().and(drag.validate()).and(thickness).and_then(|()| {
             let step = lift.y[1] - lift.y[0];
             let even = lift.y.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6 * step);
             let known = lift.y.iter().skip(self.drag_offset());
             let same = drag.y.len() <= known.len()
                 && drag.y.iter().zip(known).all(|(a, b)| (a - b).abs() < 1e-9);
             if lift.x.len() != REGIONS || drag.x != lift.x {
-                Some("the same four regions in lift and drag")
+                Err("the same four regions in lift and drag")
             } else if !even || lift.y.len() > ANGLES_MAX {
-                Some("sixteen angles at most, in equal steps")
+                Err("sixteen angles at most, in equal steps")
             } else if !same {
-                Some("angles of the drag among those of the lift")
+                Err("angles of the drag among those of the lift")
             } else {
-                None
+                Ok(())
             }
         })
     }
