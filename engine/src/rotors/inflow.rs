@@ -121,7 +121,7 @@ impl DiscFlow {
 ///   for −2 < x < 0. At hover its slope would be −1.125 against momentum theory's −½: v0 would grow by
 ///   more than Vc falls, and a descent that begins would find no damping.
 /// - Between them a smooth step, which takes v0 + Vc to its first minimum near x = −0.45: there the
-///   damping of heave ends, as it does in the flights of helicopters and a tilt-rotor [TP213477].
+///   damping of heave ends, as it does in the flights of helicopters and a tilt-rotor \[TP213477\].
 const DESCENT: [(f64, f64); 13] = [
     (0.0, 1.0),
     (0.181, 0.819),

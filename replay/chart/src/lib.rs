@@ -1,6 +1,6 @@
 //! Charts as SVG and PNG: panels over one axis, curves in a plane, curves in space.
 //!
-//! Knows nothing of flights, and of the engine only its arithmetic. A chart is set on a [`Page`], a list of marks; [`svg`] and [`png`] write the
+//! Knows nothing of flights, and of the engine only its arithmetic. A chart is set on a [`Page`], a list of marks; [`svg()`] and [`png`] write the
 //! same marks, so that both show the same picture. The same page gives the same bytes: no clock, no
 //! random number, no font or library of the system's. Letters are measured with the font that is drawn into
 //! the PNG; it has the widths of Arial and Helvetica, which stand in the SVG.
