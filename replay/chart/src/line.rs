@@ -99,16 +99,26 @@ fn beside([x, y]: [f64; 2], [ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     sqrt(px * px + py * py)
 }
 
-/// Writes the legend of curves so that it ends at `end`, on the base line `y`; where it begins.
-pub fn legend(page: &mut Page, curves: &[Curve], end: f64, y: f64) -> f64 {
+/// Each name of a legend once, with the look of its first curve.
+fn named(curves: &[Curve]) -> Vec<(&str, Look)> {
     let mut named: Vec<(&str, Look)> = Vec::new();
     for curve in curves.iter().filter(|curve| !curve.name.is_empty()) {
         if !named.iter().any(|(name, _)| *name == curve.name) {
             named.push((&curve.name, curve.look));
         }
     }
+    named
+}
+
+/// How much room a legend takes across.
+pub fn legend_width(curves: &[Curve]) -> f64 {
+    named(curves).iter().map(|(name, _)| width(name, LEGEND_SIZE) + SAMPLE + 16.0).sum()
+}
+
+/// Writes the legend of curves so that it ends at `end`, on the base line `y`; where it begins.
+pub fn legend(page: &mut Page, curves: &[Curve], end: f64, y: f64) -> f64 {
     let mut x = end;
-    for (name, look) in named.into_iter().rev() {
+    for (name, look) in named(curves).into_iter().rev() {
         x -= width(name, LEGEND_SIZE);
         page.words([x, y], name, LEGEND_SIZE, INK, Anchor::Start);
         x -= SAMPLE + 4.0;

@@ -117,7 +117,10 @@ impl Plane {
 
     /// The chart on a page.
     pub fn page(&self, tolerance: f64) -> Page {
-        let top = HEAD + LEGEND;
+        // A legend that does not fit beside the title of the upright axis has a row above it.
+        let beside = LEFT + width(&self.axes[1], TITLE_SIZE) + line::legend_width(&self.curves);
+        let row = if beside > WIDTH - RIGHT { LEGEND } else { 0.0 };
+        let top = HEAD + row + LEGEND;
         let [x, y] = self.scales(top);
         let key = moments::key_height(&self.moments, WIDTH - 24.0);
         let height = y.from + FOOT + key + MARGIN;
@@ -148,7 +151,7 @@ impl Plane {
             mark(&mut page, places.iter().copied().map(place), moments);
         }
         page.words([x.from, top - 6.0], self.axes[1].as_str(), TITLE_SIZE, INK, Anchor::Start);
-        line::legend(&mut page, &self.curves, x.to, top - 6.0);
+        line::legend(&mut page, &self.curves, x.to, top - row - 6.0);
         frame::below(&mut page, &x, y.from, &x_ticks, &self.axes[0]);
         moments::key(&mut page, &self.moments, [12.0, y.from + FOOT], WIDTH - 24.0);
         page

@@ -2,7 +2,7 @@
 
 use engine::aircraft::Params as Aircraft;
 use engine::outputs::{Severity, Validity};
-use engine::{Outputs, STEP_S};
+use engine::{Outputs, STEP_NS, STEP_S};
 use logs::records::TimingRecord;
 use logs::text::at;
 
@@ -20,9 +20,35 @@ pub struct Facts {
     verdict: String,
     /// When it ended before its end, and as what.
     crash: Option<(u64, &'static str)>,
-    /// Whether its ticks have times, and anything waited for the clock.
-    timed: bool,
-    in_real_time: bool,
+    /// How its ticks kept time, as far as they have times.
+    pace: Pace,
+}
+
+/// How ticks kept time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Pace {
+    /// Ticks that have times.
+    ticks: u64,
+    /// Those that ended after the next one was due.
+    overruns: u64,
+    /// The latest to wake up, and by how much; 0 where nothing waited for the clock.
+    latest: (u64, u64),
+}
+
+impl Pace {
+    fn words(self) -> Option<String> {
+        let Self { ticks, overruns, latest: (tick, late_ns) } = self;
+        match (ticks, late_ns) {
+            (0, _) => None,
+            (_, 0) => Some("not in real time: no tick could be late".into()),
+            _ => Some(format!(
+                "real time: {overruns} of {ticks} ticks over their {} ms, the latest by {:.1} ms at {:.1} s",
+                STEP_NS / 1_000_000,
+                late_ns as f64 * 1e-6,
+                tick as f64 * STEP_S
+            )),
+        }
+    }
 }
 
 impl Facts {
@@ -45,8 +71,11 @@ impl Facts {
 
     /// Takes how a tick kept time.
     pub fn time(&mut self, timing: &TimingRecord) {
-        self.timed = true;
-        self.in_real_time |= timing.late_ns > 0;
+        self.pace.ticks += 1;
+        self.pace.overruns += u64::from(timing.overrun > 0);
+        if timing.late_ns > self.pace.latest.1 {
+            self.pace.latest = (timing.tick, timing.late_ns);
+        }
     }
 
     /// Takes what the log is.
@@ -73,9 +102,7 @@ impl Facts {
         let length = self.span.map(|(first, last)| {
             format!("{:.1} to {:.1} s", first as f64 * STEP_S, last as f64 * STEP_S)
         });
-        let pace = (self.timed && !self.in_real_time)
-            .then(|| "not in real time, so never late".to_string());
-        let first = [Some(flown.to_string()), length, pace];
+        let first = [Some(flown.to_string()), length, self.pace.words()];
         let first: Vec<String> =
             first.into_iter().flatten().filter(|words| !words.is_empty()).collect();
         lines.push(first.join(" · "));
@@ -158,8 +185,10 @@ mod tests {
         assert!(!page.contains("CRASH") && !page.contains("real time"), "{page}");
         facts.time(&TimingRecord { step_ns: 9, ..TimingRecord::default() });
         assert!(alone(&about(), &facts).contains("not in real time"));
-        facts.time(&TimingRecord { late_ns: 9, ..TimingRecord::default() });
-        assert!(!alone(&about(), &facts).contains("not in real time"));
+        facts.time(&TimingRecord { tick: 500, late_ns: 1_500_000, ..TimingRecord::default() });
+        facts.time(&TimingRecord { overrun: 1, ..TimingRecord::default() });
+        let told = "real time: 1 of 3 ticks over their 4 ms, the latest by 1.5 ms at 2.0 s";
+        assert!(alone(&about(), &facts).contains(told));
     }
 
     #[test]

@@ -70,7 +70,7 @@ impl Layout {
             Self::Compare => compare(plan),
             Self::Own(own) => return own.tree(plan),
         };
-        let share = if plan.is_comparison() { 4.8 } else { 6.7 };
+        let share = if plan.is_comparison() { 4.6 } else { 5.6 };
         down("Review", &[1.0, share], vec![above(), below])
     }
 }

@@ -43,7 +43,7 @@ fn head(page: &mut String, first: &str) {
     READ.iter().for_each(|number| {
         let _ = write!(page, " {} |", number.name);
     });
-    page.push_str(" as | flaps | gear |\n|---|");
+    page.push_str(" flown as | flaps | gear |\n|---|");
     page.push_str(&"---|".repeat(READ.len() + 3));
     page.push('\n');
 }
@@ -52,7 +52,11 @@ fn head(page: &mut String, first: &str) {
 fn line(page: &mut String, first: &str, of: impl Fn(&Number) -> f64) {
     let _ = write!(page, "| {first} |");
     for number in READ {
-        let _ = write!(page, " {:.*} |", number.decimals, of(number));
+        // What rounds to nothing has no sign.
+        let text = format!("{:.*}", number.decimals, of(number));
+        let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
+        let text = if is_nothing { text.trim_start_matches('-') } else { &text };
+        let _ = write!(page, " {text} |");
     }
 }
 
@@ -63,14 +67,22 @@ fn words(page: &mut String, outputs: &Outputs) {
     let _ = writeln!(page, " {nacelles} | {flaps_deg:.0}° | {gear} |");
 }
 
-/// What is read at a tick.
-pub fn page(outputs: &Outputs) -> String {
+/// What a reader would not want to see late: what flies, how the flaps and the gear stand.
+pub fn settings(outputs: &Outputs) -> ([&'static str; 2], u64) {
+    (modes::words(outputs), outputs.cockpit.flap_detent)
+}
+
+/// What is read at a tick; after a crash with what it is worth.
+pub fn page(outputs: &Outputs, crash: Option<&str>) -> String {
     let mut page = String::new();
     head(&mut page, "time, s");
     line(&mut page, &format!("**{:.2}**", outputs.tick as f64 * STEP_S), |number| {
         (number.of)(outputs)
     });
     words(&mut page, outputs);
+    if let Some(crash) = crash {
+        let _ = write!(page, "\n**{crash}: none of these numbers means anything.**\n");
+    }
     page
 }
 
@@ -147,7 +159,7 @@ mod tests {
 
     #[test]
     fn every_number_stands_below_its_name() {
-        let page = page(&outputs(350.0));
+        let page = page(&outputs(350.0), None);
         let lines: Vec<Vec<&str>> = page.lines().map(cells).collect();
         assert_eq!(lines.len(), 3, "{page}");
         assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{page}");

@@ -73,6 +73,8 @@ pub struct Track {
     /// What stands above it.
     pub facts: heading::Facts,
     pages: Pages,
+    /// Settings that the last one told, and whether the flight had ended in a crash by then.
+    told: Option<(([&'static str; 2], u64), bool)>,
     /// Rows drawn so far.
     drawn: usize,
     /// While it is flown, what moves is written row by row, and the rest every few rows.
@@ -102,6 +104,7 @@ impl Track {
             trace: corridor::Trace::new(),
             facts: heading::Facts::new(aircraft),
             pages: Pages::default(),
+            told: None,
             drawn: 0,
             live: false,
             trail: Vec::new(),
@@ -181,9 +184,7 @@ impl Track {
         self.remember(outputs);
         self.show_modes(canvas, outputs, world);
         self.rows.push(*outputs);
-        if self.is_alone() && (self.drawn as u64).is_multiple_of(ROWS_PER_PAGE) {
-            self.pages.add(outputs.tick, numbers::page(outputs));
-        }
+        self.tell_numbers(outputs);
         self.drawn += 1;
         if self.live {
             self.send_motion(canvas, std::slice::from_ref(outputs));
@@ -191,6 +192,17 @@ impl Track {
         }
         if self.rows.len() >= self.rows_per_chunk() {
             self.flush(canvas);
+        }
+    }
+
+    /// Numbers at the cursor: at round times, and at once where a setting changes or the flight ends in a crash.
+    fn tell_numbers(&mut self, outputs: &Outputs) {
+        let crash = self.facts.crash_words();
+        let now = (numbers::settings(outputs), crash.is_some());
+        let is_round = outputs.tick.is_multiple_of(TICKS_PER_ROW * ROWS_PER_PAGE);
+        if self.is_alone() && (is_round || self.told != Some(now)) {
+            self.pages.add(outputs.tick, numbers::page(outputs, crash.as_deref()));
+            self.told = Some(now);
         }
     }
 
