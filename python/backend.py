@@ -76,7 +76,9 @@ def _complete(tree: Path) -> None:
     settings.write_text(text)
     for licence in ("LICENSE-APACHE", "LICENSE-MIT"):
         (tree / licence).write_bytes((ROOT / licence).read_bytes())
-    if commit := _git("rev-parse", "--short=12", "HEAD"):
+    # A copy that git does not track may lie inside somebody else's repository.
+    is_tracked = _git("ls-files", "--error-unmatch", "--", "python/backend.py")
+    if is_tracked and (commit := _git("rev-parse", "--short=12", "HEAD")):
         # Whether somebody changes the files after they were unpacked, nobody knows.
         state = "true" if _git("status", "--porcelain", "--untracked-files=no", "--", *_sources(tree)) else "unknown"
         (tree / "COMMIT").write_text(f"{commit} {state}\n")

@@ -257,7 +257,7 @@ pub struct Plan {
     /// Names of the pilot model's phases, for the line of progress.
     phases: Vec<&'static str>,
     /// What the crew calls its devices.
-    controllers: hardware::Named,
+    names: hardware::Named,
     /// Where the keys go.
     orders: Option<Orders>,
     /// Whether there is a panel, or a line of progress.
@@ -315,7 +315,7 @@ impl Plan {
         Ok(Self {
             pipe,
             phases: Vec::new(),
-            controllers: hardware::Named::default(),
+            names: hardware::Named::default(),
             orders: None,
             panel: false,
             linked,
@@ -459,7 +459,7 @@ impl Plan {
     }
 
     fn plug_in(&mut self, map: &mut cockpit::Params, path: Option<&Path>) -> Result<()> {
-        self.controllers = hardware::plug_in(&mut self.flight, map, path)?;
+        self.names = hardware::plug_in(&mut self.flight, map, path)?;
         Ok(())
     }
 
@@ -472,7 +472,7 @@ impl Plan {
         progress.stop_on_signals()?;
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg}")?);
-        let Self { flight, pipe: _pipe, phases, controllers, live, .. } = self;
+        let Self { flight, pipe: _pipe, phases, names, live, .. } = self;
         let real_time = flight.real_time.is_some();
         let live = live.map(|live| live.ready(&flight, &progress));
         let flown = || {
@@ -497,7 +497,7 @@ impl Plan {
                     for warning in warnings(&told, &now) {
                         bar.suspend(|| complain!("WARNING: {warning}"));
                     }
-                    for line in controllers.lines(&told, &now) {
+                    for line in names.lines(&told, &now) {
                         bar.suspend(|| complain!("{line}"));
                     }
                     told = now;
@@ -517,7 +517,7 @@ impl Plan {
     fn fly_with_panel(self) -> Result<Landing> {
         let progress = Progress::default();
         progress.stop_on_signals()?;
-        let Self { flight, pipe: _pipe, phases, orders, controllers, live, .. } = self;
+        let Self { flight, pipe: _pipe, phases, orders, names, live, .. } = self;
         let live = live.map(|live| live.ready(&flight, &progress));
         let verdict = flight
             .real_time
@@ -530,7 +530,7 @@ impl Plan {
             envelope: aircraft.envelope.clone(),
             phases,
             verdict,
-            controls: controls::lines(&aircraft.cockpit, controllers.names()),
+            controls: controls::lines(&aircraft.cockpit, names.names()),
             keys_fly: orders.is_some(),
         };
         let panel = Panel {
@@ -615,7 +615,7 @@ fn line(now: &Snapshot, phases: &[&str]) -> String {
     )
 }
 
-/// Whether an event is for the controllers, and is told nowhere else.
+/// Whether an event is for the crew, and is told nowhere else.
 fn is_new(event: &Told) -> bool {
     let elsewhere = [FlightEvent::Slip, FlightEvent::SelfCheck, FlightEvent::GaveUp];
     event.level != Level::Info && !elsewhere.contains(&event.what)

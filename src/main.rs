@@ -91,7 +91,7 @@ enum Command {
     Doctor(doctor::Args),
     /// Start FlightGear with our aircraft, and wait until it is ready.
     Flightgear(flightgear::Args),
-    /// The XV-15 as an FMU for Simulink and other tools, packed from the library beside the program.
+    /// The XV-15 as an FMU for simulation tools, packed from the library beside the program.
     Fmu(fmu::Args),
     /// A flight by the pilot model: recorded, verified, saved for the viewer, summed up.
     Demo(demo::Args),

@@ -24,7 +24,7 @@ const BOUNDS: &[(&str, f64, f64)] = &[
     ("frequency_radps", SMALLEST, LARGEST),
     ("stop_spring_n_m_per_rad", 0.0, LARGEST),
     ("hub_spring_n_m_per_rad", 0.0, LARGEST),
-    ("count", 1.0, 16.0),
+    ("count", 3.0, 3.0),
     ("root_norm", 0.0, 1.0),
     ("table_tip_mach", 0.0, 0.9),
     ("delta3_rad", -1.4, 1.4),

@@ -551,6 +551,6 @@ fn speeds_of_a_pilot_that_do_not_go_together_are_refused() {
         "pilot",
         "flap_down_kt",
         &format!("flap_down_kt = {{ value = 200.0, {SOURCED}"),
-        "pilot.flap_down_kt: bad table; expected slower than flap_up_mps",
+        "pilot.flap_down_kt: bad table; expected slower than flap_up",
     );
 }

@@ -65,10 +65,10 @@ impl Params {
             (
                 "pilot.over_a_spot_max",
                 self.over_a_spot_mps_max < self.flying_mps_min,
-                "slower than flying_mps_min",
+                "slower than flying_min",
             ),
-            ("pilot.flap_down", self.flap_down_mps < self.flap_up_mps, "slower than flap_up_mps"),
-            ("pilot.cushion", self.cushion_m < self.flare_m, "lower than flare_m"),
+            ("pilot.flap_down", self.flap_down_mps < self.flap_up_mps, "slower than flap_up"),
+            ("pilot.cushion", self.cushion_m < self.flare_m, "lower than flare"),
         ]
         .into_iter()
         .try_for_each(|(key, holds, expected)| holds.then_some(()).ok_or(Invalid { key, expected }))

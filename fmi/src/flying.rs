@@ -6,6 +6,7 @@ use std::sync::Arc;
 use analysis::condition::Condition;
 use engine::cockpit::AxisControl;
 use engine::inputs::{Failures, InputLevel, World};
+use engine::units::POUND_KG;
 use engine::{Aircraft, observe};
 use logs::fields::{Value as Number, fields};
 use logs::{Setup, cdr};
@@ -47,12 +48,14 @@ impl Flying {
     /// In words, when there is no such aircraft, start or steady flight.
     pub fn begin(values: &Values) -> Result<Self, String> {
         let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).map_err(told)?;
-        let aircraft_toml = match values.text("aircraft_file") {
-            "" => aircraft::XV15.to_string(),
-            path => std::fs::read_to_string(path)
-                .map_err(|why| format!("aircraft_file: {path}: {why}"))?,
+        let (file, aircraft_toml) = match values.text("aircraft_file") {
+            "" => ("xv15.toml", aircraft::XV15.to_string()),
+            path => {
+                let text = std::fs::read_to_string(path);
+                (path, text.map_err(|why| format!("aircraft_file: {path}: {why}"))?)
+            }
         };
-        let read = aircraft::aircraft("aircraft_file", &aircraft_toml).map_err(told)?;
+        let read = aircraft::aircraft(file, &aircraft_toml).map_err(told)?;
         let cockpit_toml = toml::to_string(&map).map_err(told)?;
         let aircraft = read.with_cockpit(map);
         let scenario_toml = scenario(values, &aircraft)?;
@@ -62,7 +65,9 @@ impl Flying {
             && fuel_kg > fuel_kg_max
         {
             return Err(format!(
-                "fuel_lb: {fuel_kg:.0} kg of fuel: the tanks hold {fuel_kg_max:.0} kg"
+                "fuel_lb: expected 0 to {:.0} lb, what the tanks hold, or -1 for full ones; got {:.0} lb",
+                fuel_kg_max / POUND_KG,
+                fuel_kg / POUND_KG
             ));
         }
         let setup = Setup { aircraft_toml, cockpit_toml, scenario_toml };
@@ -234,7 +239,11 @@ fn scenario(values: &Values, aircraft: &Aircraft) -> Result<String, String> {
     }
     if in_trim {
         scenario.insert("heading_deg".into(), values.real("heading_deg").into());
-        scenario.insert("fuel_lb".into(), values.real("fuel_lb").into());
+        // Without it the tanks are full.
+        let fuel_lb = values.real("fuel_lb");
+        if fuel_lb != -1.0 {
+            scenario.insert("fuel_lb".into(), fuel_lb.into());
+        }
         scenario.insert("trim".into(), trim(values, aircraft)?.into());
     }
     toml::to_string(&scenario).map_err(told)

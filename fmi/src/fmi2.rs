@@ -7,7 +7,7 @@
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 
 use crate::handle::{
-    ERROR, Logger, Logger2, Teller, call, fill, free, give, instantiate, read, text,
+    ERROR, Logger, Logger2, Teller, call, fill, free, give, give_state, instantiate, read, text,
 };
 use crate::instance::Copied;
 use crate::variables::Value;
@@ -234,9 +234,8 @@ extern "C" fn fmi2DoStep(
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut c_void) -> c_int {
     call(instance, |handle| {
-        let copied = Box::into_raw(Box::new(handle.instance.copied()));
-        // SAFETY: a place of the tool's, as FMI says. One that it gave back is made anew: it frees what it had.
-        unsafe { give(state, copied.cast(), "FMU state") }
+        // SAFETY: null, or a place that holds null or what this function gave, as FMI says.
+        unsafe { give_state(state, handle.instance.copied()) }
     })
 }
 

@@ -8,7 +8,8 @@
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 
 use crate::handle::{
-    ERROR, Handle, Logger, Logger3, Teller, call, fill, free, give, instantiate, put, read, text,
+    ERROR, Handle, Logger, Logger3, Teller, call, fill, free, give, give_state, instantiate, put,
+    read, text,
 };
 use crate::instance::Copied;
 use crate::variables::Value;
@@ -196,13 +197,14 @@ unsafe extern "C" fn fmi3GetBoolean(
     instance: *mut c_void,
     references: *const c_uint,
     count: usize,
-    values: *mut bool,
+    // Bytes, for a tool's memory may hold any bits before.
+    values: *mut u8,
     values_count: usize,
 ) -> c_int {
     // SAFETY: arrays of the tool's, as FMI says.
     unsafe {
         get(instance, (references, count), (values, values_count), |handle, reference| {
-            handle.instance.boolean(reference)
+            handle.instance.boolean(reference).map(u8::from)
         })
     }
 }
@@ -299,9 +301,8 @@ unsafe extern "C" fn fmi3DoStep(
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_void) -> c_int {
     call(instance, |handle| {
-        let copied = Box::into_raw(Box::new(handle.instance.copied()));
-        // SAFETY: a place of the tool's, as FMI says. One that it gave back is made anew: it frees what it had.
-        unsafe { give(state, copied.cast(), "FMU state") }
+        // SAFETY: null, or a place that holds null or what this function gave, as FMI says.
+        unsafe { give_state(state, handle.instance.copied()) }
     })
 }
 

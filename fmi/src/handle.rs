@@ -8,7 +8,7 @@ use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 
-use crate::instance::Instance;
+use crate::instance::{Copied, Instance};
 
 /// `fmi2OK`, `fmi3OK`.
 pub const OK: c_int = 0;
@@ -129,12 +129,32 @@ fn said(panic: &(dyn Any + Send)) -> &str {
 
 /// Ends an instance: its log is closed as ended by the crew unless it was terminated before.
 pub fn free(pointer: *mut c_void) {
-    let _ = call(pointer, |handle| handle.instance.leave());
+    // SAFETY: null, or what `instantiate` gave.
+    let is_whole =
+        unsafe { pointer.cast::<Handle>().as_ref() }.is_some_and(|handle| !handle.broken);
+    if is_whole {
+        let _ = call(pointer, |handle| handle.instance.leave());
+    }
     if !pointer.is_null() {
         // SAFETY: what `instantiate` gave; the tool does not use it again.
         let handle = unsafe { Box::from_raw(pointer.cast::<Handle>()) };
         let _ = catch_unwind(AssertUnwindSafe(|| drop(handle)));
     }
+}
+
+/// Gives a copy of the instance's state: into the one that the tool holds already, or as a new one.
+///
+/// # Safety
+/// `place` is null, or holds null or what this function gave and nobody freed.
+pub unsafe fn give_state(place: *mut *mut c_void, copied: Copied) -> Result<(), String> {
+    // SAFETY: as the caller says.
+    let place = unsafe { place.as_mut() }.ok_or("FMU state: a null pointer")?;
+    // SAFETY: as the caller says.
+    match unsafe { place.cast::<Copied>().as_mut() } {
+        Some(held) => *held = copied,
+        None => *place = Box::into_raw(Box::new(copied)).cast(),
+    }
+    Ok(())
 }
 
 /// An array of the tool's, to read.

@@ -290,7 +290,8 @@ impl Instance {
     pub fn go_to(&mut self, copied: &Copied) -> Result<(), String> {
         let Copied { phase, start_s, values, flying } = copied;
         if let Some(own) = self.flying.as_ref().filter(|own| own.stepped.is_recording()) {
-            if !flying.as_ref().is_some_and(|kept| own.stands_at(kept)) {
+            let is_here = flying.as_ref().is_some_and(|kept| own.stands_at(kept));
+            if !is_here || *phase != self.phase {
                 return Err("FMU state: a flight that is recorded cannot go back or elsewhere: leave log_file \
                             empty to set states"
                     .into());

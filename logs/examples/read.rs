@@ -6,12 +6,17 @@ use std::path::Path;
 
 use logs::{LogError, OpenOptions};
 
-fn main() -> Result<(), LogError> {
-    let Some(path) = std::env::args().nth(1) else {
-        println!("expected a log: read FLIGHT.mcap");
-        return Ok(());
-    };
-    let mut flight = logs::open(Path::new(&path), OpenOptions::default())?;
+fn main() {
+    let found = std::env::args().nth(1).ok_or("expected a log: read FLIGHT.mcap".to_string());
+    let read = |path: String| read(Path::new(&path)).map_err(|error| format!("{path}: {error}"));
+    if let Err(why) = found.and_then(read) {
+        eprintln!("{why}");
+        std::process::exit(2);
+    }
+}
+
+fn read(path: &Path) -> Result<(), LogError> {
+    let mut flight = logs::open(path, OpenOptions::default())?;
     for (key, fact) in &flight.identity.0 {
         println!("{key}: {fact}");
     }

@@ -20,7 +20,7 @@ pub(crate) struct Controllers {
 }
 
 impl Controllers {
-    /// Hands that have touched nothing yet.
+    /// Controllers that have moved nothing yet.
     pub(crate) fn new(controllers: Vec<Box<dyn Controller>>, world: World) -> Self {
         let (phase, done, gave_up) = ((0, ""), false, None);
         Self { controllers, world, phase, done, gave_up, restart: None, save: false }

@@ -62,7 +62,7 @@ mod without {
 
 #[cfg(feature = "rerun")]
 mod with {
-    use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
+    use std::net::{Ipv4Addr, SocketAddr, TcpStream, ToSocketAddrs};
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::sync::mpsc::Receiver;
     use std::thread;
@@ -104,8 +104,10 @@ mod with {
                 .collect();
             let start = match found.first() {
                 _ if found.iter().any(listens) => None,
-                Some(at) if at.ip().is_loopback() => Some((Viewer::find(&args.viewer)?, at.port())),
-                // Another machine's is not ours to start.
+                // Where a started viewer listens; another address, or another machine's, is not ours to start.
+                Some(at) if at.ip() == Ipv4Addr::LOCALHOST => {
+                    Some((Viewer::find(&args.viewer)?, at.port()))
+                }
                 _ => None,
             };
             Ok(Some(Self { place: place.clone(), layout, start }))

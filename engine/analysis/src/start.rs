@@ -28,5 +28,7 @@ pub fn state_at(start: &Start, aircraft: &Aircraft) -> Result<State, Failure> {
         scas_on: flight.scas_on,
         world: start.world.world(),
     };
-    Ok(trim(aircraft, &target)?.state)
+    let mut state = trim(aircraft, &target)?.state;
+    state.environment.noise = start.world.turbulence_seed;
+    Ok(state)
 }

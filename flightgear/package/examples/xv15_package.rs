@@ -21,7 +21,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (files, folder) = match &arguments[..] {
         [] => (made(), folder()),
         [file, folder] => {
-            let aircraft = aircraft::aircraft(file, &fs::read_to_string(file)?)?;
+            let text = fs::read_to_string(file).map_err(|why| format!("{file}: {why}"))?;
+            let aircraft = aircraft::aircraft(file, &text)?;
             (flightgear_package::files(&aircraft), PathBuf::from(folder))
         }
         _ => return Err("expected nothing, or an aircraft file and a folder".into()),

@@ -36,7 +36,7 @@ struct Job {
 }
 
 impl BlockWorkers {
-    /// They end with the crew.
+    /// They end when this is dropped.
     pub fn of(threads: usize, flown: &FlightModel) -> Self {
         let blocks = 2 * threads;
         let (jobs, waiting) = sync_channel::<Job>(blocks);

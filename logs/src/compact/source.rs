@@ -56,7 +56,7 @@ pub(crate) struct Expander {
     block: Option<Unpacked>,
     /// What was read of the file before its turn: blocks are flown meanwhile.
     ahead: VecDeque<Ahead>,
-    crew: Option<BlockWorkers>,
+    workers: Option<BlockWorkers>,
     /// The state with which the next block begins, as far as it is known before its turn.
     next_from: Option<State>,
     /// Reading began in the middle: the next block is only read for its keyframe.
@@ -241,9 +241,12 @@ impl Expander {
         let plain = std::mem::take(&mut self.plain);
         let from = self.next_from.take();
         let restarts = self.restarts(&plain);
-        let flown =
-            self.crew.as_ref().zip(from).and_then(|(crew, from)| crew.fly(from, &block, restarts));
-        if let (Some((_, data)), Some(_)) = (&keyframe, &self.crew) {
+        let flown = self
+            .workers
+            .as_ref()
+            .zip(from)
+            .and_then(|(workers, from)| workers.fly(from, &block, restarts));
+        if let (Some((_, data)), Some(_)) = (&keyframe, &self.workers) {
             self.next_from = Some(cdr::decode::<StateRecord>(data)?.state);
         }
         let (row, view) = (vec![0; block.rows.len()], vec![0; block.view_ticks.len()]);
@@ -259,7 +262,7 @@ impl Expander {
     fn restarts(&self, plain: &VecDeque<Message>) -> Restarts {
         let id = self.ids.get(RESTART);
         let of = |(number, (header, data)): (usize, &Message)| {
-            let is_one = self.crew.is_some() && Some(&header.channel_id) == id;
+            let is_one = self.workers.is_some() && Some(&header.channel_id) == id;
             let restart = is_one.then(|| cdr::decode::<RestartRecord>(data).ok())??;
             Some((number, restart.state))
         };
@@ -268,11 +271,11 @@ impl Expander {
 
     /// Reads on in the file, as far ahead as blocks can be flown meanwhile.
     fn read_ahead(&mut self) {
-        let blocks = self.crew.as_ref().map_or(1, |crew| crew.blocks);
+        let blocks = self.workers.as_ref().map_or(1, |workers| workers.blocks);
         let is_block = |ahead: &&Ahead| matches!(ahead, Ahead::Block(_));
         while !matches!(self.ahead.back(), Some(Ahead::End(_)))
             && (self.ahead.is_empty()
-                || self.crew.is_some() && self.ahead.iter().filter(is_block).count() < blocks)
+                || self.workers.is_some() && self.ahead.iter().filter(is_block).count() < blocks)
         {
             let mut of_file = std::mem::take(&mut self.record);
             let read = match self.file.next(&mut of_file) {
@@ -526,7 +529,7 @@ impl RecordSource for Expander {
         let Some(regenerator) = &mut self.regenerator else { return };
         regenerator.states_only = true;
         if threads > 0 {
-            self.crew = Some(BlockWorkers::of(threads, &regenerator.of));
+            self.workers = Some(BlockWorkers::of(threads, &regenerator.of));
             let keyframe = self.block.as_ref().and_then(|block| block.keyframe.as_ref());
             let record = keyframe.and_then(|(_, data)| cdr::decode::<StateRecord>(data).ok());
             self.next_from = record.map(|record| record.state);

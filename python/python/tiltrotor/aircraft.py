@@ -33,7 +33,7 @@ class Condition(TypedDict, total=False):
     sideslip_deg: float
     """Sideslip, air from the right positive, deg."""
     weight_lb: float
-    """Gross weight, lb; 13,000 by default."""
+    """Gross weight, lb; with full tanks by default (13,000 for the XV-15)."""
     altitude_ft: float
     """Above mean sea level, ft."""
     height_ft: float | None
