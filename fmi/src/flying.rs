@@ -65,7 +65,7 @@ impl Flying {
             && fuel_kg > fuel_kg_max
         {
             return Err(format!(
-                "fuel_lb: expected 0 to {:.0} lb, what the tanks hold, or -1 for full ones; got {:.0} lb",
+                "fuel_lb: expected 0 to {:.0} lb, what the tanks hold, or -1 (as any below 0) for full ones; got {:.0} lb",
                 fuel_kg_max / POUND_KG,
                 fuel_kg / POUND_KG
             ));
@@ -241,7 +241,7 @@ fn scenario(values: &Values, aircraft: &Aircraft) -> Result<String, String> {
         scenario.insert("heading_deg".into(), values.real("heading_deg").into());
         // Without it the tanks are full.
         let fuel_lb = values.real("fuel_lb");
-        if fuel_lb != -1.0 {
+        if fuel_lb >= 0.0 {
             scenario.insert("fuel_lb".into(), fuel_lb.into());
         }
         scenario.insert("trim".into(), trim(values, aircraft)?.into());

@@ -8,7 +8,7 @@
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 
 use crate::handle::{
-    ERROR, Handle, Logger, Logger3, Teller, call, fill, free, give, give_state, instantiate, put,
+    ERROR, Handle, Logger, Logger3, Teller, call, fill, free, give_state, instantiate, put,
     read, text,
 };
 use crate::instance::Copied;

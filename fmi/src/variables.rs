@@ -93,7 +93,7 @@ const REALS: [(&str, &str, f64, &str); 14] = [
     ),
     ("climb_fpm", "ft/min", 0.0, "Rate of climb at the start"),
     ("heading_deg", "deg", 270.0, "True heading at the start"),
-    ("fuel_lb", "lb", -1.0, "Fuel aboard at the start; -1: full tanks"),
+    ("fuel_lb", "lb", -1.0, "Fuel aboard at the start; below 0: full tanks"),
     ("wind_kt", "kt", 0.0, "Speed of the steady wind"),
     ("wind_from_deg", "deg", 0.0, "True direction from which the wind blows"),
     (

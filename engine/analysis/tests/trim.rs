@@ -275,3 +275,21 @@ fn a_scenario_begins_in_steady_flight() {
     // West, as the default scenario points.
     assert!(after.plant.position_m.y < -400.0);
 }
+
+/// Two seeds, in the air and on the ground: two turbulences, each its own again.
+#[test]
+fn turbulence_has_the_scenarios_seed_wherever_the_flight_begins() {
+    let xv15 = xv15();
+    let flown = |scenario: &str, seed: u64| {
+        let world = format!("[world]\nturbulence_mps = 2.0\nturbulence_seed = {seed}");
+        let scenario = scenario.replacen("[world]", &world, 1);
+        let start = aircraft::start("scenario.toml", &scenario).unwrap_or_else(|e| panic!("{e}"));
+        let state = state_at(&start, &xv15).unwrap_or_else(|e| panic!("{e}"));
+        fly(&xv15, &state, start.world.world(), 50).environment
+    };
+    const IN_THE_AIR: &str = include_str!("../../../aircraft/scenario/approach-60.toml");
+    for scenario in [IN_THE_AIR, aircraft::DEFAULT_SCENARIO] {
+        assert_eq!(flown(scenario, 1), flown(scenario, 1));
+        assert_ne!(flown(scenario, 1), flown(scenario, 2), "{scenario}");
+    }
+}
