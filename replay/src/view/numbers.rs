@@ -170,7 +170,16 @@ mod tests {
         assert_eq!(of("time, s"), "**2.00**");
         assert_eq!(of("height, m"), "12.3");
         assert_eq!(of("heading, deg"), "350");
-        assert_eq!(of("as"), "helicopter");
+        assert_eq!(of("flown as"), "helicopter");
+    }
+
+    #[test]
+    fn after_a_crash_the_numbers_say_what_they_are_worth_and_nothing_has_no_sign() {
+        let mut outputs = outputs(0.0);
+        outputs.euler.roll_rad = -1e-9;
+        let page = page(&outputs, Some("CRASH at 6.49 s: hull on the ground"));
+        assert!(page.ends_with("ground: none of these numbers means anything.**\n"), "{page}");
+        assert!(!page.contains("-0"), "{page}");
     }
 
     #[test]
