@@ -14,11 +14,7 @@ if [ -z "$tiltrotor" ]; then
 fi
 
 venv=target/venv-fmu
-wanted=$(sha256sum fmi/requirements.txt)
-if [ "$(cat "$venv/installed" 2>/dev/null)" != "$wanted" ]; then
-    make_venv "$venv" --requirement fmi/requirements.txt
-    echo "$wanted" >"$venv/installed"
-fi
+make_venv_of "$venv" fmi/requirements.txt
 
 begun=$SECONDS
 fmi/build.sh target/fmu

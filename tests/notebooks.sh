@@ -18,11 +18,7 @@ if [ -z "$tiltrotor" ]; then
     tiltrotor=target/headless/release/tiltrotor
 fi
 venv=target/venv-notebooks
-wanted=$(sha256sum python/notebooks/requirements.txt)
-if [ "$(cat "$venv/installed" 2>/dev/null)" != "$wanted" ]; then
-    make_venv "$venv" --requirement python/notebooks/requirements.txt
-    echo "$wanted" >"$venv/installed"
-fi
+make_venv_of "$venv" python/notebooks/requirements.txt
 "$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheel"
 
 begun=$SECONDS

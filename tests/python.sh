@@ -15,11 +15,7 @@ if [ -z "$tiltrotor" ]; then
 fi
 
 venv=target/venv-python
-wanted=$(sha256sum python/requirements.txt)
-if [ "$(cat "$venv/installed" 2>/dev/null)" != "$wanted" ]; then
-    make_venv "$venv" --requirement python/requirements.txt
-    echo "$wanted" >"$venv/installed"
-fi
+make_venv_of "$venv" python/requirements.txt
 
 begun=$SECONDS
 # Its own target folder: profiles and features are another workspace's.

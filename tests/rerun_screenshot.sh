@@ -61,20 +61,7 @@ else
     "$@" "$flight" >"$log" 2>&1 &
     viewer=$!
     sleep "$play"
-    # The viewer writes the file, and answers before it has.
-    timeout 60 "$venv/bin/python" - "$port" "$picture" <<'PYTHON'
-import os, sys, time
-from rerun.experimental import ViewerClient
-
-port, name = sys.argv[1:]
-ViewerClient(f"rerun+http://127.0.0.1:{port}/proxy").save_screenshot(os.path.abspath(name))
-size = -1
-for _ in range(80):
-    time.sleep(0.5)
-    before, size = size, os.path.getsize(name) if os.path.exists(name) else -1
-    if 0 < size == before:
-        break
-PYTHON
+    timeout 60 "$venv/bin/python" tests/viewer_picture.py "$port" "$picture"
 fi
 [ -s "$picture" ] || { cat "$log" >&2; echo "$0: the viewer took no picture" >&2; exit 1; }
 

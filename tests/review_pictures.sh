@@ -71,20 +71,7 @@ picture() {
     read -r process port <"$work/listens"
     # What was loaded is drawn by then.
     sleep "${SETTLES:-40}"
-    timeout 120 target/rerun-0.36.3/bin/python - "$port" "$work/$name.png" <<'PYTHON'
-import os, sys, time
-from rerun.experimental import ViewerClient
-
-port, name = sys.argv[1:]
-ViewerClient(f"rerun+http://127.0.0.1:{port}/proxy").save_screenshot(os.path.abspath(name))
-# It answers before the file is there.
-size = -1
-for _ in range(80):
-    time.sleep(0.5)
-    before, size = size, os.path.getsize(name) if os.path.exists(name) else -1
-    if 0 < size == before:
-        break
-PYTHON
+    timeout 120 target/rerun-0.36.3/bin/python tests/viewer_picture.py "$port" "$work/$name.png"
     kill "$process"
     as_jpeg "$work/$name.png" "$name"
 }

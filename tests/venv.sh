@@ -1,5 +1,14 @@
 # A Python environment with packages from PyPI, for the script that sources this: made once, whole or not at all.
 
+# make_venv_of FOLDER REQUIREMENTS: the packages of a file, installed when the file is another than last time.
+make_venv_of() {
+    local venv=$1 requirements=$2 wanted
+    wanted=$(sha256sum "$requirements")
+    [ "$(cat "$venv/installed" 2>/dev/null)" != "$wanted" ] || return 0
+    make_venv "$venv" --requirement "$requirements" || return
+    echo "$wanted" >"$venv/installed"
+}
+
 # make_venv FOLDER PIP-ARGUMENT...: what pip is to install there. Returns 77 where it cannot be had, and says why.
 make_venv() {
     local venv=$1 why

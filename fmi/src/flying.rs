@@ -288,15 +288,5 @@ fn whole(values: &Values, name: &str, least: i64, greatest: i64) -> Result<i64, 
 
 /// An error in words, with all that led to it.
 pub fn told(error: impl std::error::Error) -> String {
-    let mut words = error.to_string();
-    let mut source = error.source();
-    while let Some(cause) = source {
-        let cause_words = cause.to_string();
-        // Some errors name their cause themselves.
-        if !words.contains(&cause_words) {
-            words = format!("{words}: {cause_words}");
-        }
-        source = cause.source();
-    }
-    words
+    logs::text::with_causes(&error)
 }

@@ -8,8 +8,8 @@
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 
 use crate::handle::{
-    ERROR, Handle, Logger, Logger3, Teller, call, fill, free, give_state, instantiate, put,
-    read, text,
+    ERROR, Handle, Logger, Logger3, Teller, call, fill, free, give_state, instantiate, put, read,
+    text,
 };
 use crate::instance::Copied;
 use crate::variables::Value;

@@ -48,7 +48,7 @@ enum Stage {
     /// Beside the target until the flight begins; the older log is held, so that nobody else takes it.
     Claimed { hidden: PathBuf, old: Option<File> },
     /// Under its own name, with the older log set aside.
-    FlightModel { set_aside: Option<PathBuf>, _old: Option<File> },
+    Flown { set_aside: Option<PathBuf>, _old: Option<File> },
     /// Whole, under its own name.
     Done,
 }
@@ -112,7 +112,7 @@ impl Output {
     /// Where the older log is while the flight is under way.
     pub fn set_aside(&self) -> Option<&Path> {
         match &self.stage {
-            Stage::FlightModel { set_aside, .. } => set_aside.as_deref(),
+            Stage::Flown { set_aside, .. } => set_aside.as_deref(),
             _ => None,
         }
     }
@@ -140,7 +140,7 @@ impl Output {
             }
             Some(_) => Some(replace(hidden, &self.target).map_err(failed)?),
         };
-        self.stage = Stage::FlightModel { set_aside, _old: old.take() };
+        self.stage = Stage::Flown { set_aside, _old: old.take() };
         Ok(())
     }
 
@@ -157,7 +157,7 @@ impl Output {
         match &self.stage {
             Stage::Beside { hidden, force } => place(hidden, &self.target, &self.named, *force)?,
             // One that cannot be removed is one too many, not one too few.
-            Stage::FlightModel { set_aside: Some(old), .. } => drop(fs::remove_file(old)),
+            Stage::Flown { set_aside: Some(old), .. } => drop(fs::remove_file(old)),
             _ => {}
         }
         self.stage = Stage::Done;

@@ -1,4 +1,6 @@
-//! Moments and sizes as they are written for people, everywhere in the same way.
+//! Moments, sizes and errors as they are written for people, everywhere in the same way.
+
+use std::error::Error;
 
 use engine::STEP_S;
 
@@ -21,6 +23,21 @@ pub fn size(bytes: u64) -> String {
         (number, unit) = (number / THOUSAND, larger);
     }
     if unit == "B" { format!("{bytes} B") } else { format!("{number:.1} {unit}") }
+}
+
+/// An error in words, with all that led to it.
+pub fn with_causes(error: &dyn Error) -> String {
+    let mut words = error.to_string();
+    let mut source = error.source();
+    while let Some(cause) = source {
+        let cause_words = cause.to_string();
+        // Some errors name their cause themselves.
+        if !words.contains(&cause_words) {
+            words = format!("{words}: {cause_words}");
+        }
+        source = cause.source();
+    }
+    words
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::fmt::Display;
 
+use logs::text::with_causes;
 use pyo3::create_exception;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
@@ -27,29 +28,15 @@ pub fn refused(words: impl Into<String>) -> PyErr {
 
 /// An error of ours, with all that led to it.
 pub fn told(error: impl Error) -> PyErr {
-    refused(in_words(&error))
+    refused(with_causes(&error))
 }
 
 /// The same behind the name of what it is about.
 pub fn told_of(what: &str, error: impl Error) -> PyErr {
-    refused(format!("{what}: {}", in_words(&error)))
+    refused(format!("{what}: {}", with_causes(&error)))
 }
 
 /// There is no such steady flight.
 pub fn unsteady(error: &impl Display) -> PyErr {
     NoSteadyFlight::new_err(error.to_string())
-}
-
-fn in_words(error: &dyn Error) -> String {
-    let mut words = error.to_string();
-    let mut source = error.source();
-    while let Some(cause) = source {
-        let cause_words = cause.to_string();
-        // Some errors name their cause themselves.
-        if !words.contains(&cause_words) {
-            words = format!("{words}: {cause_words}");
-        }
-        source = cause.source();
-    }
-    words
 }

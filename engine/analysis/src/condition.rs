@@ -2,6 +2,7 @@
 
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt;
 
 use engine::math::{min, tan};
@@ -177,6 +178,12 @@ pub enum Fault {
     },
 }
 
+/// `0, 20, 40, 75`.
+fn listed(numbers: &[f64]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(|number| format!("{number:.0}")).collect();
+    numbers.join(", ")
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -184,10 +191,14 @@ impl fmt::Display for Fault {
                 write!(f, "{name} {value}: expected {least} to {greatest} {unit}")
             }
             Self::Flap { wanted_deg, offered_deg } => {
-                write!(f, "flap {wanted_deg} deg: the lever has detents at {offered_deg:.0?} deg")
+                write!(
+                    f,
+                    "flap {wanted_deg} deg: the lever has detents at {} deg",
+                    listed(offered_deg)
+                )
             }
             Self::Rpm { wanted, offered } => {
-                write!(f, "rotor speed {wanted} rpm: the governor offers {offered:.0?} rpm")
+                write!(f, "rotor speed {wanted} rpm: the governor offers {} rpm", listed(offered))
             }
             Self::RpmOfTheAeroplane { wanted } => {
                 write!(f, "rotor speed {wanted} rpm: only with the nacelles down, at 0 deg")
