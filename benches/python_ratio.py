@@ -41,6 +41,7 @@ def python_us(start: tiltrotor.Flight) -> float:
 def frame_us(model: str) -> float:
     fdm = jsbsim.FGFDMExec(None)
     fdm.set_debug_level(0)
+    fdm.disable_output()
     if not (fdm.load_model(model) and fdm.load_ic("reset00", True) and fdm.run_ic()):
         sys.exit(f"{model} does not start")
     begun = time.perf_counter()

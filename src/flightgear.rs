@@ -12,6 +12,7 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
+use flightgear::Receiver;
 use flightgear::link::REPORT_PORT;
 use recorder::Progress;
 
@@ -98,18 +99,13 @@ pub fn run(args: &Args) -> Result<Status> {
         say!("{}", request.in_a_shell());
         return Ok(Status::Done);
     }
-    let receiver = flightgear::Receiver::open(IpAddr::V4(args.tell), args.port + REPORT_PORT)
-        .with_context(|| {
+    let receiver =
+        Receiver::open(IpAddr::V4(args.tell), args.port + REPORT_PORT).with_context(|| {
             format!("port {} is taken: a flight is under way?", args.port + REPORT_PORT)
         })?;
-    let mut running = Running::start(&request)?;
-    complain!(
-        "FlightGear starts; the first time it takes minutes. What it says: {}",
-        running.log()
-    );
     let stop = Progress::default();
-    stop.stop_on_signals()?;
-    let took = running.ready(&receiver, Duration::from_secs_f64(args.patience), &stop.stop)?;
+    let (mut running, took) =
+        started(&request, &receiver, Duration::from_secs_f64(args.patience), &stop)?;
     say!("FlightGear is ready after {:.0} s: start a flight now", took.as_secs_f64());
     // The flight listens there from now on.
     drop(receiver);
@@ -123,6 +119,23 @@ pub fn run(args: &Args) -> Result<Status> {
         thread::sleep(Duration::from_millis(100));
     }
     Ok(Status::Done)
+}
+
+/// A FlightGear that draws, and how long that took; the wait ends with a signal too.
+pub fn started(
+    request: &Request,
+    receiver: &Receiver,
+    patience: Duration,
+    stop: &Progress,
+) -> Result<(Running, Duration)> {
+    let mut running = Running::start(request)?;
+    complain!(
+        "FlightGear starts; the first time it takes minutes. What it says: {}",
+        running.log()
+    );
+    stop.stop_on_signals()?;
+    let took = running.ready(receiver, patience, &stop.stop)?;
+    Ok((running, took))
 }
 
 impl HowArgs {

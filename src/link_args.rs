@@ -150,14 +150,8 @@ impl Linked {
         }
         let tell = (listen, receiver.port());
         let request = how.request(scene, Ports { port: first.port(), listen, tell })?;
-        let mut running = Running::start(&request)?;
-        complain!(
-            "FlightGear starts; the first time it takes minutes. What it says: {}",
-            running.log()
-        );
-        let stop = Progress::default();
-        stop.stop_on_signals()?;
-        let took = running.ready(receiver, LAUNCH, &stop.stop)?;
+        let (running, took) =
+            crate::flightgear::started(&request, receiver, LAUNCH, &Progress::default())?;
         complain!("FlightGear is ready after {:.0} s", took.as_secs_f64());
         self.running = Some(running);
         Ok(())
