@@ -30,6 +30,7 @@ pub struct Args {
     logs: Vec<PathBuf>,
     /// Threads, for one log or several at a time [default: one a processor]
     #[arg(long, value_name = "N")]
+    #[arg(value_parser = crate::numbers::threads, allow_negative_numbers = true)]
     jobs: Option<NonZero<usize>>,
     /// Only every N-th log of the sorted list, from the I-th on: 1/N to N/N together are all
     #[arg(long, value_name = "I/N")]
