@@ -102,11 +102,9 @@ pub fn run(args: &Args) -> Result<Status> {
     }
     if !choices.values().any(Option::is_some) {
         let there: Vec<_> = choices.keys().map(String::as_str).collect();
-        bail!(
-            "{name}: no such channel or field in it; its channels are {}, and `tiltrotor log fields {name}` \
-             lists their fields",
-            there.join(", ")
-        );
+        let fields = format!("`tiltrotor log fields {name}` lists their fields");
+        let there = there.join(", ");
+        bail!("{name}: no such channel or field in it; its channels are {there}; {fields}");
     }
     let ended = match messages.ending() {
         Ending::Closed => Status::Done,
