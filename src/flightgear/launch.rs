@@ -112,7 +112,8 @@ impl Running {
                     Some(_) => "it draws too slowly",
                 };
                 bail!(
-                    "FlightGear is not ready after {:.0} s: {what}\n{}",
+                    "FlightGear is not ready after {:.0} s: {what}; a first start takes longer, and `tiltrotor \
+                     flightgear --patience SECONDS` waits for it\n{}",
                     patience.as_secs_f64(),
                     self.last_words()
                 );
