@@ -74,7 +74,7 @@ pub struct Args {
     /// Begin with a situation that was saved before
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from_trim", "start"])]
     situation: Option<PathBuf>,
-    /// Later than this, and the clock is anchored anew: the flight stands still, and says so, ms
+    /// When a tick is later than this, set the clock anew (a slip, told and recorded) instead of catching up, ms
     #[arg(long, value_name = "MS", default_value_t = 100.0)]
     #[arg(value_parser = numbers::between(5.0, 10_000.0, "ms"), allow_negative_numbers = true)]
     slip_limit: f64,
