@@ -102,12 +102,28 @@ fn tell(args: &Args, diff: &Diff) {
     tell_inputs(diff, most);
     tell_states(diff, most);
     if diff.usable() {
-        say!("{}", if diff.same() { "the same flight" } else { "they differ" });
+        say!("{}", in_a_word(diff));
     } else {
         say!(
             "not usable to its end: {}",
             if diff.same() { "the same up to there" } else { "they differ" }
         );
+    }
+}
+
+/// What came of it. That one flight only goes on for longer is no difference of what was flown.
+fn in_a_word(diff: &Diff) -> &'static str {
+    let same_inputs = diff.events.ticks == 0 && diff.world.is_empty();
+    let regular = diff.a.irregular.is_none() && diff.b.irregular.is_none();
+    if diff.same() {
+        "the same flight"
+    } else if same_inputs && diff.state.is_empty() && diff.files.is_empty() && regular {
+        match diff.compared {
+            Some(_) => "they differ only in where they begin or end",
+            None => "they differ: no moment is in both",
+        }
+    } else {
+        "they differ"
     }
 }
 

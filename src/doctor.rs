@@ -1,6 +1,5 @@
 //! `tiltrotor doctor`: what this machine can hold in real time, and what to change.
 
-use std::env;
 use std::fs;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -12,6 +11,7 @@ use engine::{STEP_NS, step};
 use recorder::statistics::Durations;
 use recorder::{RealTime, check_clock};
 
+use crate::flightgear::Found;
 use crate::numbers::between;
 use crate::status::Status;
 
@@ -300,15 +300,8 @@ fn devices() -> Finding {
 }
 
 fn flightgear() -> Finding {
-    let path = env::var_os("PATH").unwrap_or_default();
-    let found =
-        env::split_paths(&path).map(|folder| folder.join("fgfs")).find(|file| file.exists());
-    match found {
-        Some(file) => Finding::good("FlightGear", file.display().to_string()),
-        None => Finding::change(
-            "FlightGear",
-            "no `fgfs` on the path",
-            "the flight goes without pictures: install FlightGear to see the world outside",
-        ),
+    match Found::look(None) {
+        Ok(found) => Finding::good("FlightGear", found.program.display().to_string()),
+        Err(error) => Finding::change("FlightGear", "none to be used", error.to_string()),
     }
 }

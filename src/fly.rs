@@ -74,7 +74,7 @@ pub struct Args {
     /// Begin with a situation that was saved before
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from_trim", "start"])]
     situation: Option<PathBuf>,
-    /// Later than this, and the clock is anchored anew: the flight stands still, and says so, ms
+    /// When a tick is later than this, set the clock anew (a slip, told and recorded) instead of catching up, ms
     #[arg(long, value_name = "MS", default_value_t = 100.0)]
     #[arg(value_parser = numbers::between(5.0, 10_000.0, "ms"), allow_negative_numbers = true)]
     slip_limit: f64,
@@ -198,7 +198,7 @@ pub fn run(args: &Args) -> Result<Status> {
     let virtual_hands = args.pilot.is_some() || args.script.is_some();
     if !args.stick && !args.keyboard && !virtual_hands && !args.flightgear_controls {
         bail!(
-            "nobody flies: give --stick, --keyboard, --flightgear-controls, --pilot NAME ({}) or --script FILE",
+            "nobody flies: give --stick, --keyboard, --flightgear-controls, --script FILE or --pilot NAME, one of{}",
             pilot_names()
         );
     }
@@ -413,7 +413,7 @@ impl Plan {
     /// Lets the pilot model of that name fly.
     pub fn set_pilot(&mut self, name: &str, map: &cockpit::Params) -> Result<()> {
         let Some(pilot) = Pilot::named(name, map, &self.flight.aircraft) else {
-            bail!("no pilot model is called `{name}`; there are {}", pilot_names());
+            bail!("no pilot model is called `{name}`; there are{}", pilot_names());
         };
         self.phases = pilot.phases();
         self.flight.controllers.push(Box::new(pilot));
@@ -679,7 +679,7 @@ fn warnings(told: &Snapshot, now: &Snapshot) -> Vec<String> {
     warnings
 }
 
+/// The pilot models, a line each.
 fn pilot_names() -> String {
-    let names: Vec<_> = PILOTS.iter().map(|(name, what)| format!("{name}: {what}")).collect();
-    names.join("; ")
+    PILOTS.iter().map(|(name, what)| format!("\n  {name:<12} {what}")).collect()
 }

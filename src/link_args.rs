@@ -25,9 +25,8 @@ pub struct LinkArgs {
     /// Send nothing to FlightGear
     #[arg(long, conflicts_with = "flightgear")]
     no_flightgear: bool,
-    /// For how long the last picture is sent again and again when all is over, s, or `forever`: a
-    /// FlightGear that stood still just then shows it, too. Ctrl-C ends it; none when nobody listens
-    /// [default: 7]
+    /// After the end, send the last picture again and again for so long, s, or `forever`: a FlightGear that
+    /// stood still just then shows it, too. Ctrl-C ends it; nothing is sent when nobody listens [default: 7]
     #[arg(long, value_name = "SECONDS")]
     #[arg(value_parser = numbers::hold_s, allow_negative_numbers = true)]
     hold: Option<f64>,

@@ -56,9 +56,9 @@ pub enum Command {
     // The name that it had, for one version more.
     #[command(alias = "trim")]
     Clip(clip::Args),
-    /// Inputs, keyframes and digests kept, states dropped: they can be flown again
+    /// A small log of a flight: inputs, digests and a state now and then are kept, the rest is flown again
     Compact(compact::CompactArgs),
-    /// The log that was compacted, to the byte
+    /// The whole log again of a compacted one, byte for byte
     Expand(compact::ExpandArgs),
     /// A proper log from a broken one: every tick up to the first bad one
     Recover {

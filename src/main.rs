@@ -82,8 +82,7 @@ enum Command {
     Log(log::Command),
     /// Steady flight: attitude, controls, power.
     Trim(trim::Args),
-    /// Small motions about a steady flight: modes, frequency responses, state-space matrices. Exit 0
-    /// solved, 5 no steady flight, or not converged.
+    /// Small motions about a steady flight: modes, frequency responses, state-space matrices.
     Linearize(linearize::Args),
     /// What a flown sweep says: frequency response and coherence of two recorded signals.
     Identify(identify::Args),

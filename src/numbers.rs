@@ -1,5 +1,7 @@
 //! Numbers of the command line: each has a range and a unit, and is refused with both.
 
+use std::num::NonZero;
+
 use analysis::condition::limits;
 
 /// Reads a number from `least` to `greatest` in that unit.
@@ -69,9 +71,15 @@ pub fn processor(text: &str) -> Result<usize, String> {
     whole(0, 1023, "a processor's number")(text).map(|number| number as usize)
 }
 
-/// Reads a UDP port that has two more after it.
+/// Reads a number of threads.
+pub fn threads(text: &str) -> Result<NonZero<usize>, String> {
+    let threads = whole(1, 1024, "threads")(text)?;
+    Ok(NonZero::new(threads as usize).unwrap_or(NonZero::<usize>::MIN))
+}
+
+/// Reads a UDP port that has three more after it.
 pub fn port(text: &str) -> Result<u16, String> {
-    whole(1, 65_533, "a port that has two more after it")(text).map(|number| number as u16)
+    whole(1, 65_532, "a port that has three more after it")(text).map(|number| number as u16)
 }
 
 /// Reads a duration of a tick or more.

@@ -89,7 +89,8 @@ pub fn run(args: &Args) -> Result<Status> {
     let flown = logs.iter().map(|log| Afterwards::of(log, &window)).collect::<Result<Vec<_>>>()?;
     let flights: Vec<&Flight> = flown.iter().map(|flown| &flown.flight).collect();
     if !folder.as_os_str().is_empty() {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
     let mut drawn = 0;
     for figure in wanted {

@@ -81,7 +81,12 @@ pub fn landing(landing: &Landing, real_time: bool, out: &str) {
             closed.bytes as f64 / flown.ticks.max(1) as f64,
             closed.digest
         ),
-        Err(error) => say!("log        {out} ends before the flight did: {error}"),
+        Err(error) => {
+            say!("log        {out} ends before the flight did: {error}");
+            say!(
+                "           `tiltrotor log recover {out} --out FIXED` makes a whole log of what there is"
+            );
+        }
     }
     if let Some(older) = &landing.set_aside {
         say!("           the log that was there before is kept as {}", older.display());

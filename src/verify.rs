@@ -30,6 +30,7 @@ pub struct Args {
     logs: Vec<PathBuf>,
     /// Threads, for one log or several at a time [default: one a processor]
     #[arg(long, value_name = "N")]
+    #[arg(value_parser = crate::numbers::threads, allow_negative_numbers = true)]
     jobs: Option<NonZero<usize>>,
     /// Only every N-th log of the sorted list, from the I-th on: 1/N to N/N together are all
     #[arg(long, value_name = "I/N")]
@@ -49,11 +50,12 @@ pub struct Args {
 struct How {
     #[command(flatten)]
     window: WindowArgs,
-    /// Nothing is verified: what moved since each log was flown, and where, is said
+    /// Instead of verifying, say what moved since each log was flown, by how much and when; exit 1 when
+    /// something did
     #[arg(long, conflicts_with_all = ["from", "until", "around", "shard"])]
     moved: bool,
-    /// The same, and each log is flown anew by its recorded inputs: after a deliberate change of the
-    /// model, for golden flights
+    /// Like --moved, and put today's flight in the place of each log that moved: after a deliberate change of
+    /// the model, for golden flights
     #[arg(long, conflicts_with_all = ["from", "until", "around", "shard"])]
     bless: bool,
     /// Fly them with this aircraft file instead of their own

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use aircraft::EditError;
+use anyhow::{Context, Result, anyhow, bail};
 use engine::inputs::{Failures, World};
 use engine::math::{atan2, min, sqrt};
 use engine::units::{degrees, knots};
@@ -144,6 +145,7 @@ impl Wanted {
             let source = format!("what-if of {}", log.file_name().unwrap_or_default().display());
             setup.aircraft_toml =
                 aircraft::set("aircraft.toml", &setup.aircraft_toml, key, value, &source)
+                    .map_err(|error| with_a_way_out(error, log))
                     .with_context(|| format!("--set {change}"))?;
             // One at a time: the key that is wrong is the one that is told.
             aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)
@@ -151,6 +153,16 @@ impl Wanted {
             said.push(format!("{key} = {value}"));
         }
         Ok((setup, said))
+    }
+}
+
+/// A key that is like no other is to be looked up.
+fn with_a_way_out(error: EditError, log: &Path) -> anyhow::Error {
+    match &error {
+        EditError::UnknownKey { near, .. } if near.is_empty() => {
+            anyhow!("{error}; `tiltrotor whatif {} --list` lists them all", log.display())
+        }
+        _ => error.into(),
     }
 }
 

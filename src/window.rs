@@ -16,7 +16,7 @@ pub struct WindowArgs {
     /// End there
     #[arg(long, value_name = "WHEN", allow_hyphen_values = true)]
     until: Option<When>,
-    /// Before and after that, --window seconds
+    /// Only the part around this moment: --window seconds before it and after it
     #[arg(long, value_name = "WHEN", allow_hyphen_values = true, conflicts_with_all = ["from", "until"])]
     around: Option<When>,
     /// With --around: so many seconds before, and as many after

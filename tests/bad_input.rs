@@ -246,8 +246,8 @@ fn no_stick_plugged_in_is_told() {
     tiltrotor(&[&flight[..], &["--map", text(&map)]].concat())
         .ends(2)
         .says("no stick found")
-        .says("plug one in, write a map for one of these (`tiltrotor devices --map-new FILE`), or fly")
-        .says("with `--pilot hover`");
+        .says("plug one in, write a map for what is there (`tiltrotor devices --map-new FILE`), or fly")
+        .says("with `--keyboard` or `--pilot hover`");
     assert!(!out.exists());
 }
 

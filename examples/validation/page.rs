@@ -13,16 +13,16 @@ when the page is not what the model does now, so every change of the model shows
 
 Classes: **A** measured in flight, tunnel or on a stand; **B** output of the reference model (GTRS) or
 another simulation; **C** prediction of 1975, before the first flight; **theory**, a closed form worked
-out for this aircraft; **own**, no source: a requirement of ours. A is what counts; B says whether
-our blocks do what the reference's do, and where B disagrees with A, nobody can agree with both; C is
-sanity only. A number outside its tolerance is a MISS and stays one until the model, not the
-tolerance, changes; a flight that ours cannot fly is a MISS too. *Not yet*: nobody has asked the model.
-A number that passes within the last twentieth of its band passes *at the edge*.
+out for this aircraft; **own**, no source: a requirement of ours. A is what counts. B says whether our
+blocks do what those of the reference do; where B disagrees with A, no model can agree with both. C only
+shows that a number is plausible. A number outside its tolerance is a MISS and stays one until the model,
+not the tolerance, changes; a condition that our model cannot fly is a MISS too. *Not yet*: the model was
+not computed there. A number that passes within the last twentieth of its band passes *at the edge*.
 
 A **prediction** is a number of class A, B or C that nobody put in: no parameter was chosen with it in
-view (*fitted to* it), and no other row is the same measurement, nor does the set-up force it
-(*checked twice*). Only predictions say how far to trust the model. Points of one curve are counted one
-by one, here and there; so are gain and phase.
+view (then it is *fitted to*), no other row is the same measurement, and the set-up of the case does not
+force it (then it is *checked twice*). Only predictions say how far to trust the model. Each point of a
+curve counts as a number, and so do gain and phase at one frequency.
 
 Speeds are true, at sea level on a standard day, gross weight 13,000 lb, unless a case says otherwise.
 Stick is in inches from the aft stop, neutral at 4.8. Power is that of both rotors.

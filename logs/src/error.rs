@@ -125,11 +125,19 @@ pub enum LogError {
     #[error("log file: {0}")]
     Mcap(mcap::McapError),
     /// Reading or writing.
-    #[error("log file: {0}")]
+    #[error("log file: {}", in_words(.0))]
     Io(io::Error),
     /// A type that is not recordable.
     #[error(transparent)]
     Fields(#[from] fields::NotRecordable),
+}
+
+/// What is said of a full disk names no file: it is never the one that is read.
+fn in_words(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::StorageFull => format!("{error}: make room where the new file is written"),
+        _ => error.to_string(),
+    }
 }
 
 fn at(tick: u64) -> String {

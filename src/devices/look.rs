@@ -58,13 +58,13 @@ pub fn list(map: Option<&Path>) -> Result<Status> {
             say!(
                 "no input device at all can be seen: nothing is plugged in, or this is a container"
             );
-            say!("fly without one: tiltrotor fly --pilot hover");
+            say!("fly without one: tiltrotor fly --keyboard, or tiltrotor fly --pilot hover");
         }
         Err(error) => {
             let first = error.lines().next().unwrap_or_default();
             say!("nothing to fly with: {}", first.trim_end_matches("; what is there:"));
             say!("map one of these: tiltrotor devices --map-new FILE");
-            say!("fly without one: tiltrotor fly --pilot hover");
+            say!("fly without one: tiltrotor fly --keyboard, or tiltrotor fly --pilot hover");
         }
     }
     Ok(Status::Done)

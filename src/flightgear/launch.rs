@@ -96,7 +96,11 @@ impl Running {
                 }
             }
             if let Some(ended) = self.ended()? {
-                bail!("FlightGear ended before it was ready, with {ended}\n{}", self.last_words());
+                bail!(
+                    "FlightGear ended before it was ready, with {ended}; {}\n{}",
+                    what_to_do(),
+                    self.last_words()
+                );
             }
             if stop.load(Ordering::Relaxed) {
                 bail!("ended before FlightGear was ready");
@@ -108,7 +112,8 @@ impl Running {
                     Some(_) => "it draws too slowly",
                 };
                 bail!(
-                    "FlightGear is not ready after {:.0} s: {what}\n{}",
+                    "FlightGear is not ready after {:.0} s: {what}; a first start takes longer, and `tiltrotor \
+                     flightgear --patience SECONDS` waits for it\n{}",
                     patience.as_secs_f64(),
                     self.last_words()
                 );
@@ -126,8 +131,22 @@ impl Running {
     }
 }
 
+/// What to do when it ended by itself.
+fn what_to_do() -> &'static str {
+    let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    if cfg!(target_os = "linux") && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") {
+        "no screen is known here (neither DISPLAY nor WAYLAND_DISPLAY is set): start it at a desktop, or \
+         under `xvfb-run -a`"
+    } else {
+        "`tiltrotor flightgear --print` says its command line, to be tried by hand"
+    }
+}
+
 impl Drop for Running {
     fn drop(&mut self) {
+        if !matches!(self.child.try_wait(), Ok(None)) {
+            return;
+        }
         // Told to end it ends at once; asked to, it hangs.
         #[cfg(unix)]
         let _ = Command::new("kill").arg(self.child.id().to_string()).status();

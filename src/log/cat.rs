@@ -15,6 +15,7 @@ use replay::{Outcome, Window};
 use wildmatch::WildMatch;
 
 use crate::console::Stdout;
+use crate::numbers::whole;
 use crate::status::Status;
 use crate::window::WindowArgs;
 
@@ -30,7 +31,8 @@ pub struct Args {
     #[arg(long, value_name = "GLOB")]
     field: Vec<String>,
     /// Only every Nth tick; device events and flight events are printed all the same
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = whole(1, 1_000_000_000, "one tick in so many"), allow_negative_numbers = true)]
     every: u64,
     #[command(flatten)]
     window: WindowArgs,
@@ -100,7 +102,9 @@ pub fn run(args: &Args) -> Result<Status> {
     }
     if !choices.values().any(Option::is_some) {
         let there: Vec<_> = choices.keys().map(String::as_str).collect();
-        bail!("{name}: no such channel or field in it; its channels are {}", there.join(", "));
+        let fields = format!("`tiltrotor log fields {name}` lists their fields");
+        let there = there.join(", ");
+        bail!("{name}: no such channel or field in it; its channels are {there}; {fields}");
     }
     let ended = match messages.ending() {
         Ending::Closed => Status::Done,

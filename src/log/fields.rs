@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use engine::Outputs;
 use engine::inputs::DeviceEvent;
-use logs::Messages;
 use logs::channels::{Channel, ChannelId};
 use logs::fields::{Node, tree};
 use logs::layout::Layout;
 use logs::records::{EventRecord, InputsRecord, RestartRecord, StateRecord, TimingRecord};
 use logs::units::unit_of;
+use logs::{Ending, Messages};
 use serde_json::json;
 use wildmatch::WildMatch;
 
@@ -113,6 +113,11 @@ pub fn run(args: &Args) -> Result<Status> {
                 })),
             }
         }
+    }
+    if let Ending::Damaged(why) = messages.ending()
+        && channels.is_empty()
+    {
+        bail!("{name}: damaged: {why}");
     }
     if listed == 0 {
         let there: Vec<_> = channels.keys().map(String::as_str).collect();

@@ -22,7 +22,10 @@ pub fn run(logs: &[PathBuf], aircraft: Option<&Path>, write: bool) -> Result<Sta
         match replay::bless(log, identity::identity(), aircraft_toml.as_deref(), write) {
             Ok(moved) => {
                 say!("{}: {moved}", log.display());
-                if write {
+                let is_the_same = moved.is_same() && moved.models.0 == moved.models.1;
+                if write && is_the_same {
+                    say!("{}: left as it is", log.display());
+                } else if write {
                     say!("{}: blessed, {}", log.display(), size(moved.bytes));
                 } else if !moved.is_same() {
                     statuses.push(Status::Differs);

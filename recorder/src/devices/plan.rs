@@ -35,8 +35,8 @@ pub enum PlanError {
     Required(String, String),
     /// Nothing is plugged in that the map knows.
     #[error(
-        "no stick found{0}\nplug one in, write a map for one of these (`tiltrotor devices --map-new \
-         FILE`), or fly with `--pilot hover`"
+        "no stick found{0}\nplug one in, write a map for what is there (`tiltrotor devices --map-new \
+         FILE`), or fly with `--keyboard` or `--pilot hover`"
     )]
     Nothing(String),
 }

@@ -31,8 +31,9 @@ fn stay_on(cpu: usize) -> Result<(), String> {
         return Err(format!("processor {cpu}: there is none of that number"));
     }
     set.set(cpu);
-    sched_setaffinity(None, &set)
-        .map_err(|error| format!("the loop does not stay on processor {cpu}: {error}"))
+    sched_setaffinity(None, &set).map_err(|error| {
+        format!("the loop does not stay on processor {cpu} (the first is 0): {error}")
+    })
 }
 
 /// By how much whoever looks on stands behind the rest of the flight, in the system's steps of niceness.
