@@ -90,7 +90,7 @@ exact "debug" "$debug"
 if [ "$whole" = whole ]; then
     exact "release for this CPU, link-time optimised" "$native"
 else
-    "${for_this_cpu[@]}" cargo test --quiet --release --package aircraft --test random_states \
+    "${for_this_cpu[@]}" cargo test --quiet --release --package engine --test random_states \
         --target-dir target/native >"$work/out.txt" 2>&1 || {
         printf 'DIVERGED the flight model for this CPU, link-time optimised\n'
         cat "$work/out.txt"
