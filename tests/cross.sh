@@ -24,8 +24,7 @@ command -v x86_64-w64-mingw32-gcc >/dev/null ||
 echo "cargo check for $macos (Rust only) and $windows"
 export CC_aarch64_apple_darwin=$PWD/tests/cross/no_c_compiler
 export AR_aarch64_apple_darwin=$PWD/tests/cross/no_c_compiler
-cargo check --workspace --no-default-features --features sticks --target $macos
-cargo check --workspace --no-default-features --features sticks --target $windows
+cargo check --workspace --no-default-features --features sticks --target $macos --target $windows
 [ "${1-}" = check ] && exit 0
 
 wine=$(command -v wine64 || command -v wine) ||

@@ -28,7 +28,8 @@ echo "building: release, debug${whole:+, release for this CPU with link-time opt
 build headless --release
 release=target/headless/release/tiltrotor
 if [ "$whole" = whole ]; then
-    build headless --config profile.dev.package.engine.opt-level=0
+    build headless --config profile.dev.package.engine.opt-level=0 \
+        --config profile.dev.package.logs.opt-level=0
     debug=target/headless/debug/tiltrotor
     CARGO_TARGET_DIR=target/native "${for_this_cpu[@]}" cargo build --quiet "${headless[@]}" --release
     native=target/native/release/tiltrotor
@@ -90,7 +91,7 @@ exact "debug" "$debug"
 if [ "$whole" = whole ]; then
     exact "release for this CPU, link-time optimised" "$native"
 else
-    "${for_this_cpu[@]}" cargo test --quiet --release --package aircraft --test random_states \
+    "${for_this_cpu[@]}" cargo test --quiet --release --package engine --test random_states \
         --target-dir target/native >"$work/out.txt" 2>&1 || {
         printf 'DIVERGED the flight model for this CPU, link-time optimised\n'
         cat "$work/out.txt"

@@ -2,7 +2,8 @@
 //! fast replay.
 //!
 //! A machine that is busy with other things delays packets, and there is no test that could tell its delay
-//! from ours: of three attempts one has to be smooth.
+//! from ours: of three attempts one has to be smooth. And it is a program of its own, because cargo runs those
+//! one after the other: no other test is beside it.
 
 mod common;
 

@@ -81,11 +81,11 @@ picture rotor "$work/demo.mcap" --layout rotor --at 30
 picture latency "$work/demo.mcap" --layout latency --at 90
 picture compare "$work/calm.mcap" --against "$work/weaker.mcap" --at 23
 picture crash "$work/crash.mcap" --at 6.6
-# A log that diverges, as tests/view.rs leaves it: the aircraft in it is not the one that was flown.
+# A log that diverges, as tests/command/view.rs leaves it: the aircraft in it is not the one that was flown.
 diverged=(target/tmp/view-diverged/parted/*.rrd)
 if [ -s "${diverged[0]}" ]; then
     tests/rerun_screenshot.sh "${diverged[0]}" "$work/diverged.png" 30
     as_jpeg "$work/diverged.png" diverged
 else
-    echo "no picture of a diverged log: run tests/view.rs first" >&2
+    echo "no picture of a diverged log: run tests/command/view.rs first" >&2
 fi

@@ -7,4 +7,4 @@
 # TILTROTOR_SEED=<seed> tests/ten_thousand.sh
 set -eu
 cd "$(dirname "$0")/.."
-TILTROTOR_FLIGHTS="${1:-10000}" exec cargo test --release -p aircraft --test violent_flights -- --nocapture
+TILTROTOR_FLIGHTS="${1:-10000}" exec cargo test --release -p engine --test violent_flights -- --nocapture

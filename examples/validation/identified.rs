@@ -88,7 +88,7 @@ pub fn responses(aircraft: &Aircraft, book: &mut Book) {
          hover, and about 180 KCAS at 8,000 ft, SCAS off; response and coherence come of the \
          record by `identify`. Frequencies are within 1 % of those named; at .3 rad/s resolution \
          takes 1.3 dB in hover. That identified and linearised responses agree within 1 dB and 5 \
-         deg is a test of its own (`tests/identify.rs`).",
+         deg is a test of its own (`tests/command/identify.rs`).",
     )
     .misses("As in case 9.")
     .settled_by("As in case 9: the time histories of the sweeps.");

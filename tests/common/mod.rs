@@ -3,7 +3,7 @@
 //! A log is changed through the `mcap` crate: every record is copied, so that all checksums of the
 //! copy are right again and only the flight itself can betray it.
 
-// Each test file is a program of its own and uses its part.
+// Each test program uses its part.
 #![allow(dead_code)]
 
 pub mod flightgear;
@@ -11,9 +11,9 @@ pub mod flightgear;
 use std::collections::VecDeque;
 use std::fmt::Write as _;
 use std::fs;
-use std::io::Cursor;
+use std::io::{Cursor, Write as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use logs::cdr;
 use logs::fields::fields;
@@ -165,6 +165,20 @@ pub fn hover(log: &Path, seconds: &str) {
 #[track_caller]
 pub fn verify(log: &Path) -> Said {
     tiltrotor(&["verify", text(log)])
+}
+
+/// Makes a script that can be run at once. What this process writes itself may stay open for a moment in a
+/// child that another test starts meanwhile, and what is open for writing cannot be run.
+pub fn program_of(program: &Path, script: &str) {
+    let mut writer = Command::new("sh")
+        .args(["-c", "cat >\"$0\" && chmod 755 \"$0\"", text(program)])
+        .stdin(Stdio::piped())
+        .spawn()
+        .expect("a shell");
+    let mut to = writer.stdin.take().expect("its input");
+    to.write_all(script.as_bytes()).expect("it takes the script");
+    drop(to);
+    assert!(writer.wait().expect("it ends").success(), "{}", program.display());
 }
 
 /// A log taken apart, to be put together again with something changed.

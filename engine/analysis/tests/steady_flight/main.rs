@@ -1,0 +1,4 @@
+//! Steady flight: trimmed and linearised, and what the SCAS makes of it with the stick let go.
+
+mod scas;
+mod trim;
