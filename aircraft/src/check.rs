@@ -131,6 +131,10 @@ pub(crate) fn ranges(file: &str, tree: &Node) -> Result<(), ConfigError> {
 fn within(file: &str, node: &Node, (min, max): (f64, f64)) -> Result<(), ConfigError> {
     match &node.value {
         Value::Table(_) => ranges(file, node),
+        // What bounds a quantity does not bound the points of an axis.
+        Value::Tabulated(parts) => {
+            parts.iter().try_for_each(|(_, node)| within(file, node, (-LARGEST, LARGEST)))
+        }
         Value::Array(nodes) => nodes.iter().try_for_each(|node| within(file, node, (min, max))),
         value => match value.number() {
             Some(found) if found < min || found > max => {
@@ -148,7 +152,7 @@ pub(crate) fn aircraft(
     aircraft: &engine::aircraft::Params,
 ) -> Result<(), ConfigError> {
     if let Err(Invalid { key: name, expected }) = aircraft.validate() {
-        return Err(error(file, find(tree, name), Problem::BadTable(expected)));
+        return Err(error(file, find(tree, name), Problem::Unusable(expected)));
     }
     let weights = &aircraft.weight_balance;
     let (upright, change) = (&weights.inertia, &weights.inertia_change);

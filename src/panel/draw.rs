@@ -6,6 +6,7 @@ use engine::STEP_S;
 use engine::inputs::World;
 use engine::math::{atan2, max, sqrt};
 use engine::outputs::Severity;
+use engine::table::axis::RotorSpeed;
 use engine::units::{FOOT_M, FPM_PER_MPS, RPM_PER_RADPS, degrees, knots};
 use logs::view::Level;
 use ratatui::Frame;
@@ -215,7 +216,7 @@ fn numbers(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     let o = &look.shown.outputs;
     let limits = &look.cockpit.envelope.rotors;
     let mast_n_m = o.engines.torque_n_m;
-    let torque_max_n_m = limits.short_torque_n_m_max.at(o.rotor_speed_radps);
+    let torque_max_n_m = limits.short_torque_n_m_max.at(RotorSpeed(o.rotor_speed_radps));
     let torque = 100.0 * max(mast_n_m.left, mast_n_m.right) / max(torque_max_n_m, 1.0);
     let rotor = 100.0 * o.rotor_speed_radps / limits.rated_radps;
     let rpm = format!("% {:.0} rpm", o.rotor_speed_radps * RPM_PER_RADPS);
