@@ -6,10 +6,13 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use serde::{Deserialize, Deserializer};
+
 pub mod axis;
 mod read;
 
 pub use axis::Axis;
+use read::parts;
 pub use read::{NAME, VALUE};
 
 /// y over one argument.
@@ -174,6 +177,27 @@ impl<X: Axis, Y: Axis, Z: Axis> Table3<X, Y, Z> {
     }
 }
 
+impl<'de, X: Axis> Deserialize<'de> for Table1<X> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let ([x], y) = parts(deserializer, const { &[X::KEY, VALUE] })?;
+        Ok(Self::new(x, y))
+    }
+}
+
+impl<'de, X: Axis, Y: Axis> Deserialize<'de> for Table2<X, Y> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let ([x, y], z) = parts(deserializer, const { &[X::KEY, Y::KEY, VALUE] })?;
+        Ok(Self::new(x, y, z))
+    }
+}
+
+impl<'de, X: Axis, Y: Axis, Z: Axis> Deserialize<'de> for Table3<X, Y, Z> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let ([x, y, z], w) = parts(deserializer, const { &[X::KEY, Y::KEY, Z::KEY, VALUE] })?;
+        Ok(Self::new(x, y, z, w))
+    }
+}
+
 fn ascending(axis: &[f64]) -> Result<(), &'static str> {
     if axis.len() < 2 {
         Err("two points at least")
@@ -186,7 +210,10 @@ fn ascending(axis: &[f64]) -> Result<(), &'static str> {
 
 #[cfg(test)]
 mod tests {
+    use alloc::format;
     use alloc::vec;
+
+    use serde::de::value::{Error as ValueError, MapDeserializer};
 
     use super::axis::{Alpha, Beta, Mach};
     use super::*;
@@ -223,5 +250,25 @@ mod tests {
         for (x, y) in [(0.5, 3.0), (1.0, 4.0), (1.5, 5.0), (2.0, 6.0), (9.0, 6.0), (-0.5, 4.0)] {
             assert!((table.at_or(Alpha(x), 6.0, 1.0) - y).abs() < 1e-15, "{x}");
         }
+    }
+
+    fn read<X: Axis>(parts: &[(&'static str, Vec<f64>)]) -> Result<Table1<X>, ValueError> {
+        Table1::deserialize(MapDeserializer::new(parts.iter().cloned()))
+    }
+
+    #[test]
+    fn a_table_is_read_over_the_axis_of_its_type_alone() {
+        let printed = [("alpha_rad", vec![0.0, 1.0]), ("value", vec![2.0, 4.0])];
+        assert_eq!(read::<Alpha>(&printed), Ok(Table1::new(vec![0.0, 1.0], vec![2.0, 4.0])));
+        let told = read::<Beta>(&printed).map_err(|error| format!("{error}"));
+        assert_eq!(told, Err("unknown field `alpha_rad`, expected `beta_rad` or `value`".into()));
+    }
+
+    #[test]
+    fn a_table_has_its_axes_first_and_nothing_behind_its_values() {
+        let (x, y) = (("alpha_rad", vec![0.0, 1.0]), ("value", vec![2.0, 4.0]));
+        assert!(read::<Alpha>(&[y.clone(), x.clone()]).is_err());
+        assert!(read::<Alpha>(&[x.clone()]).is_err());
+        assert!(read::<Alpha>(&[x, y.clone(), y]).is_err());
     }
 }
