@@ -110,6 +110,14 @@ pub enum Problem {
         /// Found, in SI units.
         found: f64,
     },
+    /// Another number than the one that the model fixes.
+    #[error("expected {expected}; found {found}")]
+    Fixed {
+        /// The number, and why it is fixed.
+        expected: &'static str,
+        /// Found.
+        found: f64,
+    },
     /// A least value that is not below the greatest.
     #[error("expected less than {other}")]
     Crossed {
