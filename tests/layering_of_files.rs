@@ -59,6 +59,7 @@ const SHARED: &[&str] = &[
     "pair",
     "struts",
     "table",
+    "table::axis",
     "units",
 ];
 
