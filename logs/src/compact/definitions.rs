@@ -45,6 +45,11 @@ impl Definitions {
         self.ids.get(topic).copied().ok_or_else(|| broken("a channel is not there"))
     }
 
+    /// Whether a channel of the log with that topic has that number there.
+    pub fn is(&self, topic: &str, id: u16) -> bool {
+        self.ids.get(topic) == Some(&id)
+    }
+
     /// The topic of a channel of this file.
     ///
     /// # Errors

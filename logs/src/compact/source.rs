@@ -223,9 +223,8 @@ impl Expander {
     /// States among the messages of a block that take the place of flown ones; what cannot be read is found
     /// wrong when its turn comes.
     fn restarts(&self, plain: &VecDeque<Message>) -> Restarts {
-        let id = self.definitions.id(RESTART).ok();
         let of = |(number, (header, data)): (usize, &Message)| {
-            let is_one = self.workers.is_some() && Some(header.channel_id) == id;
+            let is_one = self.workers.is_some() && self.definitions.is(RESTART, header.channel_id);
             let restart = is_one.then(|| cdr::decode::<RestartRecord>(data).ok())??;
             Some((number, restart.state))
         };

@@ -40,13 +40,13 @@ impl Expander {
     fn plain(&mut self, record: &mut Record) -> Result<(), LogError> {
         let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
         let (header, data) = at.plain.pop_front().ok_or_else(|| broken("a message less"))?;
-        if self.definitions.id(STATE).ok() == Some(header.channel_id) {
+        if self.definitions.is(STATE, header.channel_id) {
             // It is flown on from there.
             (at.flown, at.ticks) = (None, VecDeque::new());
             self.stand_at(&data)?;
             self.states += 1;
             self.reflown = false;
-        } else if self.definitions.id(RESTART).ok() == Some(header.channel_id)
+        } else if self.definitions.is(RESTART, header.channel_id)
             && let Some(regenerator) = &mut self.regenerator
         {
             regenerator.takes(ChannelId::Restart, &data)?;
