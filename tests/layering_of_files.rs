@@ -60,6 +60,7 @@ const SHARED: &[&str] = &[
     "struts",
     "table",
     "table::axis",
+    "table::read",
     "units",
 ];
 
