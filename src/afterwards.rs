@@ -8,6 +8,7 @@ use anyhow::{Context, Result};
 use engine::Outputs;
 use engine::envelope::Params as Envelope;
 use engine::math::{max, min};
+use engine::table::axis::RotorSpeed;
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::devices::DeviceIdentity;
 use logs::{Identity, Setup};
@@ -73,7 +74,8 @@ impl Margins {
         self.energy_j += outputs.engines.power_w.sum() * engine::STEP_S;
         let v = outputs.velocity_mps;
         self.distance_m += engine::math::sqrt(v.x * v.x + v.y * v.y) * engine::STEP_S;
-        let allowed_n_m = envelope.rotors.short_torque_n_m_max.at(outputs.rotor_speed_radps);
+        let allowed_n_m =
+            envelope.rotors.short_torque_n_m_max.at(RotorSpeed(outputs.rotor_speed_radps));
         let torque = outputs.rotors.map(|rotor| rotor.torque_n_m);
         let torque_norm = max(torque.left, torque.right) / max(allowed_n_m, 1.0);
         if self.torque_norm_max.is_none_or(|(most, _)| torque_norm > most) {

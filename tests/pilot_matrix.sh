@@ -19,7 +19,7 @@ goal() {
     takeoff) echo helicopter ;;
     convert) echo aeroplane ;;
     turn) echo "left turn" ;;
-    *) echo "end of the flight: the hands are done" ;;
+    *) echo "end of the flight: the pilot model or script has ended" ;;
     esac
 }
 

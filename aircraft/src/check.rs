@@ -24,7 +24,6 @@ const BOUNDS: &[(&str, f64, f64)] = &[
     ("frequency_radps", SMALLEST, LARGEST),
     ("stop_spring_n_m_per_rad", 0.0, LARGEST),
     ("hub_spring_n_m_per_rad", 0.0, LARGEST),
-    ("count", 3.0, 3.0),
     ("root_norm", 0.0, 1.0),
     ("table_tip_mach", 0.0, 0.9),
     ("delta3_rad", -1.4, 1.4),
@@ -96,6 +95,10 @@ const BOUNDS: &[(&str, f64, f64)] = &[
     ("flap_detent", 0.0, engine::cockpit::FLAP_DETENT_LAST as f64),
 ];
 
+/// Numbers that the model fixes by key, and what they are.
+const FIXED: &[(&str, f64, &str)] =
+    &[("count", 3.0, "3 blades: the model is of a three-bladed gimballed hub")];
+
 /// A lag shorter than a tick would run away.
 const TIMES: (f64, f64) = (engine::STEP_S, LARGEST);
 
@@ -114,6 +117,12 @@ pub(crate) fn ranges(file: &str, tree: &Node) -> Result<(), ConfigError> {
             .or_else(|| name.ends_with("_s").then_some(TIMES))
             .unwrap_or((-LARGEST, LARGEST));
         within(file, node, bounds)?;
+        if let Some((_, fixed, expected)) = FIXED.iter().find(|(key, ..)| key == name)
+            && let Some(found) = node.value.number()
+            && found.to_bits() != fixed.to_bits()
+        {
+            return Err(error(file, node, Problem::Fixed { expected, found }));
+        }
         let greatest = name
             .strip_suffix("_min")
             .and_then(|stem| nodes.iter().find(|(other, _)| *other == format!("{stem}_max")));
@@ -131,6 +140,10 @@ pub(crate) fn ranges(file: &str, tree: &Node) -> Result<(), ConfigError> {
 fn within(file: &str, node: &Node, (min, max): (f64, f64)) -> Result<(), ConfigError> {
     match &node.value {
         Value::Table(_) => ranges(file, node),
+        // What bounds a quantity does not bound the points of an axis.
+        Value::Tabulated(parts) => {
+            parts.iter().try_for_each(|(_, node)| within(file, node, (-LARGEST, LARGEST)))
+        }
         Value::Array(nodes) => nodes.iter().try_for_each(|node| within(file, node, (min, max))),
         value => match value.number() {
             Some(found) if found < min || found > max => {
@@ -148,7 +161,7 @@ pub(crate) fn aircraft(
     aircraft: &engine::aircraft::Params,
 ) -> Result<(), ConfigError> {
     if let Err(Invalid { key: name, expected }) = aircraft.validate() {
-        return Err(error(file, find(tree, name), Problem::BadTable(expected)));
+        return Err(error(file, find(tree, name), Problem::Unusable(expected)));
     }
     let weights = &aircraft.weight_balance;
     let (upright, change) = (&weights.inertia, &weights.inertia_change);

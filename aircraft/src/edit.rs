@@ -1,9 +1,9 @@
 //! Changing numbers of an aircraft file, as text: everything else stays as it is written.
 
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use engine::table::VALUE;
+use toml_edit::{DocumentMut, Item, TableLike, Value};
 
-use crate::error::ConfigError;
+use crate::error::{ConfigError, Problem};
 use crate::units::to_si;
 
 /// Why a number cannot be changed.
@@ -60,74 +60,107 @@ pub fn set(
     value: &str,
     source: &str,
 ) -> Result<String, EditError> {
-    crate::provenance(file_name, text)?;
+    let mut document = document(file_name, text)?;
     let wrong = || EditError::Value { key: key.into(), value: value.into() };
-    let sample = format!("x = {value}");
-    let parsed = DeTable::parse(&sample).map_err(|_| wrong())?;
-    if parsed.get_ref().len() != 1 || value.contains(['\n', '\r', '#']) {
+    let new: Value = value.parse().map_err(|_| wrong())?;
+    if value.contains(['\n', '\r', '#']) {
         return Err(wrong());
     }
-    let Ok(document) = DeTable::parse(text) else { return Err(wrong()) };
-    let unknown = || {
-        let mut keys = Vec::new();
-        leaves("", document.get_ref(), &mut keys);
-        let keys: Vec<&str> = keys.iter().map(|(key, _)| key.as_str()).collect();
-        EditError::UnknownKey { key: key.into(), near: near(key, &keys) }
+    let names = place(document.as_table(), key)?;
+    let (Some((name, tables)), Some(segment)) = (names.split_last(), key.rsplit('.').next()) else {
+        return Err(wrong());
     };
-    let mut table = document.get_ref();
-    let mut segments = key.split('.').peekable();
-    while let Some(segment) = segments.next() {
-        let (name, found) = entry(table, segment).ok_or_else(unknown)?;
-        match (found.get_ref(), segments.peek()) {
-            (DeValue::Table(below), Some(_)) if !is_quantity(below) => table = below,
-            (_, Some(_)) => return Err(unknown()),
-            (DeValue::Table(below), None) if !is_quantity(below) => {
-                return Err(EditError::Table { key: key.into() });
-            }
-            (found_value, None) => {
-                let mut changes = vec![(name.span(), segment.to_string())];
-                if let DeValue::Table(quantity) = found_value {
-                    let quoted = toml::Value::String(source.into()).to_string();
-                    let parts = [("value", value), ("source", &quoted), ("trust", "\"E\"")];
-                    for (part, new) in parts {
-                        if let Some((_, old)) = entry(quantity, part) {
-                            changes.push((old.span(), new.to_string()));
-                        }
-                    }
-                } else {
-                    changes.push((found.span(), value.to_string()));
-                }
-                return Ok(changed(text, changes));
-            }
-        }
+    let mut table: &mut dyn TableLike = document.as_table_mut();
+    for name in tables {
+        table = table.get_mut(name).and_then(Item::as_table_like_mut).ok_or_else(wrong)?;
     }
-    Err(unknown())
+    let item = table.get_mut(name).ok_or_else(wrong)?;
+    if let Some(quantity) = item.as_table_like_mut() {
+        for (part, new) in [(VALUE, new), ("source", source.into()), ("trust", "E".into())] {
+            replace(quantity.get_mut(part), new);
+        }
+    } else {
+        replace(Some(item), new);
+    }
+    rename(table, name, segment);
+    let changed = document.to_string();
+    // What is written again has its lines ended as on Unix.
+    Ok(if text.contains("\r\n") { changed.replace('\n', "\r\n") } else { changed })
 }
 
-fn changed(text: &str, mut changes: Vec<(std::ops::Range<usize>, String)>) -> String {
-    let mut text = text.to_string();
-    // From the back: what comes before stays where it is.
-    changes.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
-    for (span, new) in changes {
-        text.replace_range(span, &new);
+/// The text's tables, with what is between them.
+fn document(file_name: &str, text: &str) -> Result<DocumentMut, ConfigError> {
+    crate::provenance(file_name, text)?;
+    text.parse().map_err(|error: toml_edit::TomlError| ConfigError {
+        file: file_name.to_owned(),
+        line: 1,
+        key: String::new(),
+        problem: Problem::Syntax(error.message().replace('\n', "; ")),
+    })
+}
+
+/// The names, as written, of the tables that a key is in and of the key itself.
+fn place(document: &dyn TableLike, key: &str) -> Result<Vec<String>, EditError> {
+    let unknown = || {
+        let mut known = Vec::new();
+        leaves("", document, &mut known);
+        let known: Vec<&str> = known.iter().map(|(key, _)| key.as_str()).collect();
+        EditError::UnknownKey { key: key.into(), near: near(key, &known) }
+    };
+    let mut table = document;
+    let mut names = Vec::new();
+    let mut segments = key.split('.').peekable();
+    while let Some(segment) = segments.next() {
+        let (name, item) = entry(table, segment).ok_or_else(unknown)?;
+        names.push(name.to_owned());
+        match (table_of_keys(item), segments.peek()) {
+            (Some(below), Some(_)) => table = below,
+            (Some(_), None) => return Err(EditError::Table { key: key.into() }),
+            (None, Some(_)) => return Err(unknown()),
+            (None, None) => {}
+        }
     }
-    text
+    Ok(names)
 }
 
 /// The entry of that name, or of the same quantity in another unit.
-fn entry<'a, 'i>(
-    table: &'a DeTable<'i>,
-    name: &str,
-) -> Option<(&'a Spanned<std::borrow::Cow<'i, str>>, &'a Spanned<DeValue<'i>>)> {
-    let same = |key: &Spanned<std::borrow::Cow<'i, str>>| to_si(key.get_ref()).0 == to_si(name).0;
-    table
-        .iter()
-        .find(|(key, _)| key.get_ref() == name)
-        .or_else(|| table.iter().find(|(key, _)| same(key)))
+fn entry<'a>(table: &'a dyn TableLike, name: &str) -> Option<(&'a str, &'a Item)> {
+    let same = |(key, _): &(&str, &Item)| to_si(key).0 == to_si(name).0;
+    table.iter().find(|(key, _)| *key == name).or_else(|| table.iter().find(same))
 }
 
-fn is_quantity(table: &DeTable<'_>) -> bool {
-    table.get("value").is_some()
+/// The table, if it is one that has keys, and no number with its source.
+fn table_of_keys(item: &Item) -> Option<&dyn TableLike> {
+    item.as_table_like().filter(|table| !table.contains_key(VALUE))
+}
+
+/// Puts a value in another's place, between the same spaces and comments.
+fn replace(old: Option<&mut Item>, mut new: Value) {
+    if let Some(old) = old.and_then(Item::as_value_mut) {
+        *new.decor_mut() = old.decor().clone();
+        *old = new;
+    }
+}
+
+/// Gives an entry another name, in its place.
+fn rename(table: &mut dyn TableLike, old: &str, new: &str) {
+    if old == new {
+        return;
+    }
+    // An entry is added behind the others: all are, in their order.
+    let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
+    for name in names {
+        let Some(key) = table.key(&name).cloned() else { continue };
+        let Some(item) = table.remove(&name) else { continue };
+        let key = if name == old {
+            toml_edit::Key::new(new)
+                .with_leaf_decor(key.leaf_decor().clone())
+                .with_dotted_decor(key.dotted_decor().clone())
+        } else {
+            key
+        };
+        table.entry_format(&key).or_insert(item);
+    }
 }
 
 /// Every key that [`set`] changes, with its value as written, in the order of the alphabet.
@@ -135,40 +168,35 @@ fn is_quantity(table: &DeTable<'_>) -> bool {
 /// # Errors
 /// When the text is not TOML.
 pub fn values(file_name: &str, text: &str) -> Result<Vec<(String, String)>, ConfigError> {
-    crate::provenance(file_name, text)?;
-    let Ok(document) = DeTable::parse(text) else { return Ok(Vec::new()) };
-    let mut spans = Vec::new();
-    leaves("", document.get_ref(), &mut spans);
-    let one_line = |span: std::ops::Range<usize>| {
-        let value = text.get(span)?;
+    let document = document(file_name, text)?;
+    let mut values = Vec::new();
+    leaves("", document.as_table(), &mut values);
+    let one_line = |value: String| {
         // A comment ends with its line: in an array of several lines it has to go.
         let several = value.contains('\n');
         let words = value.lines().flat_map(|line| {
             let told = if several { line.split('#').next().unwrap_or_default() } else { line };
             told.split_whitespace()
         });
-        Some(words.collect::<Vec<_>>())
+        words.collect::<Vec<_>>().join(" ")
     };
-    let mut values: Vec<_> = spans
-        .into_iter()
-        .filter_map(|(key, span)| Some((key, one_line(span)?.join(" "))))
-        .collect();
+    let mut values: Vec<_> =
+        values.into_iter().map(|(key, value)| (key, one_line(value))).collect();
     values.sort();
     Ok(values)
 }
 
-/// Every key that has a value, and where that is.
-fn leaves(path: &str, table: &DeTable<'_>, into: &mut Vec<(String, std::ops::Range<usize>)>) {
-    for (key, value) in table.iter() {
-        let name = key.get_ref();
+/// Every key that has a value, and that as written.
+fn leaves(path: &str, table: &dyn TableLike, into: &mut Vec<(String, String)>) {
+    for (name, item) in table.iter() {
         let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
-        match value.get_ref() {
-            DeValue::Table(below) if !is_quantity(below) => leaves(&path, below, into),
-            DeValue::Table(quantity) => {
-                let number = quantity.get("value").map_or(value.span(), Spanned::span);
-                into.push((path, number));
-            }
-            _ => into.push((path, value.span())),
+        if let Some(below) = table_of_keys(item) {
+            leaves(&path, below, into);
+        } else {
+            let quantity = item.as_table_like().and_then(|quantity| quantity.get(VALUE));
+            let value = quantity.unwrap_or(item).as_value().cloned();
+            let written = value.map(|value| value.decorated("", "").to_string());
+            into.push((path, written.unwrap_or_default()));
         }
     }
 }
@@ -213,6 +241,35 @@ mod tests {
         let text = set_ours("fcc.travel.pedal_m", "0.1").expect("a key");
         let aircraft = crate::aircraft("aircraft.toml", &text).expect("an aircraft");
         assert_eq!(aircraft.fcc.travel.pedal_m.to_bits(), 0.1_f64.to_bits());
+    }
+
+    /// A table's key, and a key between others: the order and all that is between stay.
+    #[test]
+    fn another_unit_is_written_where_the_key_was() {
+        for (key, value, old, new) in [
+            ("fcc.travel.pedal_m", "0.1", "pedal_in = { value = 2.5,", "pedal_m = { value = 0.1,"),
+            (
+                "actuators.nacelle_radps",
+                "[0, 0.1, 0.1, 0.1, 0.1, 0]",
+                "[actuators.nacelle_degps]",
+                "[actuators.nacelle_radps]",
+            ),
+        ] {
+            let text = set_ours(key, value).expect("a key");
+            let line =
+                |text: &str, start: &str| text.lines().position(|line| line.starts_with(start));
+            assert!(line(crate::XV15, old).is_some(), "{old}");
+            assert_eq!(line(&text, new), line(crate::XV15, old), "{key}");
+            assert_eq!(text.lines().count(), crate::XV15.lines().count());
+        }
+    }
+
+    #[test]
+    fn lines_end_as_they_did() {
+        let windows = crate::XV15.replace('\n', "\r\n");
+        let text = set("aircraft.toml", &windows, "fcc.travel.pedal_in", "3", "a trial");
+        let ours = set_ours("fcc.travel.pedal_in", "3").expect("a key");
+        assert_eq!(text.expect("a key"), ours.replace('\n', "\r\n"));
     }
 
     #[test]

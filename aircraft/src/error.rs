@@ -82,19 +82,21 @@ pub enum Problem {
     },
     /// A table over other arguments than the engine's.
     #[error(
-        "expected a table over {} (or the same in another unit), found {}",
+        "expected a table over {}{}, found {}; give its values over {}",
         expected.join(", "),
-        list_or_none(found)
+        in_other_units(expected),
+        over_or_none(found),
+        in_order(expected)
     )]
     Arguments {
         /// The engine's arguments, in SI.
         expected: Vec<String>,
-        /// The arguments found, in SI.
+        /// The arguments found, as written.
         found: Vec<String>,
     },
-    /// A table that cannot be used.
-    #[error("bad table; expected {0}")]
-    BadTable(&'static str),
+    /// What the engine cannot use, in its words for what it can.
+    #[error("expected {0}")]
+    Unusable(&'static str),
     /// NaN, an infinity, or a number too large to be held.
     #[error("expected a finite number, found {0}")]
     NotFinite(String),
@@ -106,6 +108,14 @@ pub enum Problem {
         /// Greatest.
         max: f64,
         /// Found, in SI units.
+        found: f64,
+    },
+    /// Another number than the one that the model fixes.
+    #[error("expected {expected}; found {found}")]
+    Fixed {
+        /// The number, and why it is fixed.
+        expected: &'static str,
+        /// Found.
         found: f64,
     },
     /// A least value that is not below the greatest.
@@ -131,6 +141,15 @@ fn in_other_units(names: &[String]) -> &'static str {
     }
 }
 
-fn list_or_none(names: &[String]) -> String {
-    if names.is_empty() { "no arguments".to_owned() } else { names.join(", ") }
+fn over_or_none(names: &[String]) -> String {
+    if names.is_empty() {
+        "no arguments".to_owned()
+    } else {
+        format!("one over {}", names.join(", "))
+    }
+}
+
+fn in_order(names: &[String]) -> String {
+    let order = if names.len() > 1 { ", in this order" } else { "" };
+    format!("{}{order}", names.join(", "))
 }

@@ -7,8 +7,10 @@ use serde::de::{
     SeqAccess, Unexpected, Visitor,
 };
 
+use engine::table::{self, VALUE};
+
 use crate::error::{ConfigError, Problem};
-use crate::tree::{Node, Value};
+use crate::tree::{Node, PARTS, Value};
 
 /// The engine's struct that the tree describes.
 pub(crate) fn read<T: DeserializeOwned>(file: &str, tree: &Node) -> Result<T, ConfigError> {
@@ -74,8 +76,36 @@ impl de::Error for Fault {
 
 impl Node {
     fn wrong_type(&self, expected: impl Into<String>) -> Fault {
-        let found = self.value.describe().to_owned();
+        // What is no array can be no argument: then the key is what is wrong.
+        if let Value::Tabulated(parts) = &self.value
+            && let Some((_, stray)) = parts
+                .iter()
+                .find(|(name, node)| name != VALUE && !matches!(node.value, Value::Array(_)))
+        {
+            return Fault::new(Problem::UnknownKey { expected: owned(&PARTS) }).at(stray);
+        }
+        let found = self.value.describe();
         Fault::new(Problem::WrongType { expected: expected.into(), found }).at(self)
+    }
+
+    /// Values over the arguments whose keys the engine's table has, in its order.
+    fn tabulated<'de, V: Visitor<'de>>(
+        &'de self,
+        keys: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        match &self.value {
+            Value::Tabulated(parts) if parts.iter().map(|(name, _)| name).eq(keys) => {
+                let members = Members { rest: parts.iter(), value: None };
+                visitor.visit_map(members).map_err(|fault| fault.at(self))
+            }
+            value => {
+                let axes = keys.iter().filter(|key| **key != VALUE).copied();
+                let expected = axes.map(str::to_owned).collect();
+                let found = value.arguments_as_written();
+                Err(Fault::new(Problem::Arguments { expected, found }).at(self))
+            }
+        }
     }
 
     fn sequence<'de, V: Visitor<'de>>(
@@ -121,7 +151,7 @@ impl<'de> Deserializer<'de> for &'de Node {
             Value::Bool(_) => self.deserialize_bool(visitor),
             Value::Text(_) => self.deserialize_str(visitor),
             Value::Array(_) => self.deserialize_seq(visitor),
-            Value::Table(_) => self.deserialize_map(visitor),
+            Value::Table(_) | Value::Tabulated(_) => self.deserialize_map(visitor),
         }
     }
 
@@ -187,11 +217,11 @@ impl<'de> Deserializer<'de> for &'de Node {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Fault> {
-        // A vector is written as an array of its components.
-        if name == "Vec3" {
-            self.sequence(visitor, Some(fields.len()))
-        } else {
-            self.deserialize_map(visitor)
+        match name {
+            // A vector is written as an array of its components.
+            "Vec3" => self.sequence(visitor, Some(fields.len())),
+            table::NAME => self.tabulated(fields, visitor),
+            _ => self.deserialize_map(visitor),
         }
     }
 

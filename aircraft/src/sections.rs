@@ -4,6 +4,9 @@
 //! have fewer: the widest of its regions is divided in the middle, with the same section on either side, until
 //! there are four. Each part then holds its table at the Mach number of its own middle, as the engine does.
 
+use engine::table::axis::RadialStation;
+use engine::table::{Axis, VALUE};
+
 use crate::tree::{Node, Value};
 
 /// Regions that the engine has.
@@ -13,7 +16,9 @@ const TABLES: [&str; 2] = ["lift_coefficient", "drag_coefficient"];
 
 fn member<'a>(node: &'a mut Node, name: &str) -> Option<&'a mut Node> {
     match &mut node.value {
-        Value::Table(nodes) => nodes.iter_mut().find(|(key, _)| key == name).map(|(_, node)| node),
+        Value::Table(nodes) | Value::Tabulated(nodes) => {
+            nodes.iter_mut().find(|(key, _)| key == name).map(|(_, node)| node)
+        }
         _ => None,
     }
 }
@@ -32,7 +37,9 @@ pub(crate) fn divide(tree: &mut Node) {
     };
     let root_norm = member(blade, "root_norm").and_then(|root| root.value.number());
     let Some(section) = member(blade, "section") else { return };
-    let mut ends = TABLES.map(|table| numbers(member(section, table).and_then(|t| member(t, "x"))));
+    let mut ends = TABLES.map(|table| {
+        numbers(member(section, table).and_then(|table| member(table, RadialStation::KEY)))
+    });
     let [Some(of_lift), Some(of_drag)] = &mut ends else { return };
     let (Some(root_norm), true) = (root_norm, *of_lift == *of_drag) else { return };
     while (1..REGIONS).contains(&of_lift.len()) {
@@ -47,7 +54,7 @@ pub(crate) fn divide(tree: &mut Node) {
         of_lift.insert(widest, middle);
         for table in TABLES {
             let Some(table) = member(section, table) else { return };
-            for (part, new) in [("x", Some(middle)), ("z", None)] {
+            for (part, new) in [(RadialStation::KEY, Some(middle)), (VALUE, None)] {
                 if let Some(Value::Array(nodes)) = member(table, part).map(|node| &mut node.value)
                     && let Some(same) = nodes.get(widest).cloned()
                 {

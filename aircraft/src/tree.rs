@@ -3,6 +3,8 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
+use engine::table::VALUE;
+
 use crate::error::{ConfigError, Problem};
 use crate::provenance::{Provenance, Trust};
 use crate::units;
@@ -37,18 +39,33 @@ pub(crate) enum Value {
     Array(Vec<Node>),
     /// By SI key, in the file's order.
     Table(Vec<(String, Node)>),
+    /// A number's values over arguments: these by SI key in the file's order, and the values behind them
+    /// as [`VALUE`].
+    Tabulated(Vec<(String, Node)>),
 }
 
 impl Value {
     /// What it is, for messages.
-    pub fn describe(&self) -> &'static str {
-        match self {
+    pub fn describe(&self) -> String {
+        let kind = match self {
             Self::Float(_) | Self::Integer(_) => "a number",
             Self::Bool(_) => "true or false",
             Self::Text(_) => "a string",
             Self::Array(_) => "an array",
             Self::Table(_) => "a table",
-        }
+            Self::Tabulated(_) => {
+                return format!("values over {}", self.arguments_as_written().join(", "));
+            }
+        };
+        kind.to_owned()
+    }
+
+    /// The keys of its arguments as the file has them, if it has arguments.
+    pub fn arguments_as_written(&self) -> Vec<String> {
+        let Self::Tabulated(parts) = self else { return Vec::new() };
+        let arguments = parts.iter().filter(|(name, _)| name != VALUE);
+        let written = |node: &Node| node.key.rsplit('.').next().unwrap_or_default().to_owned();
+        arguments.map(|(_, node)| written(node)).collect()
     }
 
     /// As a number, if it is one.
@@ -110,92 +127,8 @@ impl Lines {
     }
 }
 
-/// The engine's tables: (key, arguments), in SI. A key that two blocks have with other arguments stands with the
-/// tables that it is in; of the rows that fit, the longest counts.
-const TABLES: &[(&str, &[&str])] = &[
-    ("attitude_by_tilt_norm", &["mast_tilt_rad"]),
-    ("stick_by_tilt_m_per_rad", &["mast_tilt_rad"]),
-    ("speed_by_tilt_mps_per_rad", &["mast_tilt_rad"]),
-    ("collective_per_lever_rad_per_m", &["mast_tilt_rad"]),
-    ("collective_per_lateral_stick_rad_per_m", &["mast_tilt_rad"]),
-    ("cyclic_per_longitudinal_stick_rad_per_m", &["mast_tilt_rad"]),
-    ("cyclic_per_pedal_rad_per_m", &["mast_tilt_rad", "airspeed_mps"]),
-    ("lateral_cyclic_rad", &["airspeed_mps"]),
-    ("lateral_cyclic_norm", &["mast_tilt_rad"]),
-    ("blade_chord_m", &["radius_norm"]),
-    ("twist_rad", &["radius_norm"]),
-    ("lift_coefficient", &["radius_norm", "alpha_rad"]),
-    ("drag_coefficient", &["radius_norm", "alpha_rad"]),
-    ("thickness_norm", &["radius_norm"]),
-    ("download_near_ground", &["height_over_diameter"]),
-    ("downwind", &["advance_ratio"]),
-    ("abreast", &["advance_ratio"]),
-    ("lever_bottom_rad", &["mast_tilt_rad"]),
-    ("proportional_rad_per_radps", &["mast_tilt_rad"]),
-    ("integral_rad_per_rad", &["mast_tilt_rad"]),
-    ("nacelle_radps", &["mast_tilt_rad"]),
-    ("power_by_lever_norm", &["lever_norm"]),
-    // Envelope.
-    ("calibrated_airspeed_mps_min", &["mast_tilt_rad"]),
-    ("calibrated_airspeed_mps_max", &["mast_tilt_rad"]),
-    ("short_torque_n_m_max", &["rotor_speed_radps"]),
-    // Rotor wake.
-    ("tail_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
-    ("rotor_wake.sideslip_factor", &["beta_rad", "mast_tilt_rad"]),
-    // Wing and pylons.
-    ("flap_0", &["alpha_rad"]),
-    ("flap_20", &["alpha_rad"]),
-    ("flap_40", &["alpha_rad"]),
-    ("flap_75", &["alpha_rad"]),
-    ("mach_0_4", &["alpha_rad"]),
-    ("mach_0_5", &["alpha_rad"]),
-    ("mach_0_6", &["alpha_rad"]),
-    ("pitching_moment", &["mast_tilt_rad", "flap_rad"]),
-    ("drag_at_no_lift", &["mast_tilt_rad", "flap_rad"]),
-    ("rolling_by_sideslip_per_rad", &["mast_tilt_rad", "flap_rad"]),
-    ("rolling_by_sideslip_and_lift_per_rad", &["mast_tilt_rad", "flap_rad"]),
-    ("flaperon_factor", &["mast_tilt_rad", "flap_rad"]),
-    ("lift_loss_by_flaperon_per_rad", &["flap_rad"]),
-    ("yawing_by_flaperon_per_rad", &["mast_tilt_rad", "flap_rad"]),
-    ("yawing_by_flaperon_and_lift", &["mast_tilt_rad", "flap_rad"]),
-    ("interference_m2", &["mast_tilt_rad"]),
-    ("platform_factor", &["angle_rad"]),
-    // Fuselage.
-    ("lift_m2", &["alpha_rad"]),
-    ("drag_m2", &["alpha_rad"]),
-    ("pitching_m3", &["alpha_rad"]),
-    ("lift_by_sideslip_m2", &["beta_rad"]),
-    ("drag_by_sideslip_m2", &["beta_rad"]),
-    ("pitching_by_sideslip_m3", &["beta_rad"]),
-    ("side_m2", &["beta_rad"]),
-    ("rolling_m3", &["beta_rad"]),
-    ("yawing_m3", &["beta_rad"]),
-    // Stabilisers.
-    ("elevator_by_mach", &["mach"]),
-    ("lift", &["alpha_rad", "elevator_rad"]),
-    ("horizontal_stabilizer.drag", &["alpha_rad"]),
-    ("horizontal_stabilizer.sideslip_factor", &["beta_rad"]),
-    ("downwash_rad", &["mast_tilt_rad", "alpha_rad", "flap_rad"]),
-    ("pressure_ratio", &["mast_tilt_rad", "alpha_rad", "airspeed_mps"]),
-    ("pressure_factor", &["mast_tilt_rad"]),
-    ("side_force", &["beta_rad", "rudder_rad"]),
-    ("vertical_stabilizers.drag", &["beta_rad"]),
-    ("side_force_by_mach.mach_0_4", &["beta_rad"]),
-    ("side_force_by_mach.mach_0_5", &["beta_rad"]),
-    ("side_force_by_mach.mach_0_6", &["beta_rad"]),
-    ("vertical_stabilizers.drag_by_mach.mach_0_4", &["beta_rad"]),
-    ("vertical_stabilizers.drag_by_mach.mach_0_5", &["beta_rad"]),
-    ("vertical_stabilizers.drag_by_mach.mach_0_6", &["beta_rad"]),
-    ("rudder_by_mach", &["mach"]),
-    ("rotor_sidewash", &["airspeed_mps", "beta_rad"]),
-    ("fuselage_sidewash.flap_0", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
-    ("fuselage_sidewash.flap_20", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
-    ("fuselage_sidewash.flap_40", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
-    ("fuselage_sidewash.flap_75", &["mast_tilt_rad", "alpha_rad", "beta_rad"]),
-];
-
 /// What accompanies a sourced number's value.
-const PARTS: [&str; 4] = ["value", "source", "trust", "note"];
+pub(crate) const PARTS: [&str; 4] = [VALUE, "source", "trust", "note"];
 
 /// One walk over a document.
 struct Walk<'a> {
@@ -238,7 +171,7 @@ impl Walk<'_> {
         let mut nodes: Vec<(String, Node)> = Vec::new();
         for entry in self.entries(path, table) {
             let (si_name, factor) = units::to_si(entry.name);
-            let value = self.value(&entry, &si_name, factor)?;
+            let value = self.value(&entry, factor)?;
             let Entry { path: key, line, .. } = entry;
             if let Some((_, other)) = nodes.iter().find(|(name, _)| *name == si_name) {
                 let problem = Problem::GivenTwice { other: other.key.clone(), line: other.line };
@@ -249,18 +182,13 @@ impl Walk<'_> {
         Ok(Value::Table(nodes))
     }
 
-    fn value(
-        &mut self,
-        entry: &Entry<'_, '_>,
-        si_name: &str,
-        factor: f64,
-    ) -> Result<Value, ConfigError> {
+    fn value(&mut self, entry: &Entry<'_, '_>, factor: f64) -> Result<Value, ConfigError> {
         let sourced = self.numbers == Numbers::Sourced;
         match entry.value {
             DeValue::Table(table)
                 if sourced && PARTS.iter().any(|part| table.get(*part).is_some()) =>
             {
-                self.quantity(entry, table, si_name, factor)
+                self.quantity(entry, table, factor)
             }
             DeValue::Table(table) => self.table(&entry.path, table),
             DeValue::Integer(_) | DeValue::Float(_) | DeValue::Array(_) if sourced => {
@@ -280,14 +208,13 @@ impl Walk<'_> {
         &mut self,
         entry: &Entry<'_, '_>,
         table: &DeTable<'_>,
-        si_name: &str,
         factor: f64,
     ) -> Result<Value, ConfigError> {
         let (mut value, mut source, mut trust, mut note) = (None, None, None, None);
         let mut arguments: Vec<(String, Node)> = Vec::new();
         for part in self.entries(&entry.path, table) {
             match part.name {
-                "value" => value = Some(self.plain(&part.path, part.line, part.value)?),
+                VALUE => value = Some(self.plain(&part.path, part.line, part.value)?),
                 "source" => source = Some(self.text(&part)?),
                 "note" => note = Some(self.text(&part)?),
                 "trust" => {
@@ -305,63 +232,23 @@ impl Walk<'_> {
             }
         }
         let incomplete = |what| self.error(&entry.path, entry.line, Problem::Incomplete(what));
-        let value = value.ok_or_else(|| incomplete("value"))?.scaled(factor);
+        let value = value.ok_or_else(|| incomplete(VALUE))?.scaled(factor);
         let source =
             source.filter(|text| !text.trim().is_empty()).ok_or_else(|| incomplete("source"))?;
         let trust = trust.ok_or_else(|| incomplete("trust"))?;
-        let value = self.with_arguments(entry, si_name, value, arguments)?;
         self.provenance.push(Provenance { key: entry.path.clone(), source, trust, note });
-        Ok(value)
-    }
-
-    /// The value as the engine's table over its arguments, if it is one.
-    fn with_arguments(
-        &self,
-        entry: &Entry<'_, '_>,
-        si_name: &str,
-        value: Value,
-        arguments: Vec<(String, Node)>,
-    ) -> Result<Value, ConfigError> {
-        let within = entry.path.rsplit_once('.').map_or("", |(tables, _)| tables);
-        let place = format!("{within}.{si_name}");
-        let fits = |name: &str| {
-            place
-                .strip_suffix(name)
-                .is_some_and(|before| before.is_empty() || before.ends_with('.'))
-        };
-        let rows = TABLES.iter().filter(|(name, _)| fits(name));
-        let expected = rows.max_by_key(|(name, _)| name.len()).map(|(_, names)| *names);
-        let given = |expected: &&[&str]| {
-            arguments.iter().map(|(name, _)| name.as_str()).eq(expected.iter().copied())
-        };
-        let Some(expected) = expected else {
-            return match arguments.into_iter().next() {
-                None => Ok(value),
-                // A table of a name that the engine does not have: who reads it knows which there are.
-                Some((_, Node { value: Value::Array(_), .. })) => Ok(Value::Table(Vec::new())),
-                Some((_, extra)) => {
-                    let expected = PARTS.map(str::to_owned).to_vec();
-                    Err(self.error(&extra.key, extra.line, Problem::UnknownKey { expected }))
-                }
-            };
-        };
-        if !given(&expected) {
-            let problem = Problem::Arguments {
-                expected: expected.iter().map(|&name| name.to_owned()).collect(),
-                found: arguments.into_iter().map(|(name, _)| name).collect(),
-            };
-            return Err(self.error(&entry.path, entry.line, problem));
+        if arguments.is_empty() {
+            return Ok(value);
         }
-        let node = Node { key: format!("{}.value", entry.path), line: entry.line, value };
-        let nodes = arguments.into_iter().map(|(_, node)| node).chain([node]);
-        let names = ["x", "y", "z", "w"].map(str::to_owned);
-        Ok(Value::Table(names.into_iter().zip(nodes).collect()))
+        let key = format!("{}.{VALUE}", entry.path);
+        arguments.push((VALUE.to_owned(), Node { key, line: entry.line, value }));
+        Ok(Value::Tabulated(arguments))
     }
 
     fn text(&mut self, entry: &Entry<'_, '_>) -> Result<String, ConfigError> {
         match self.plain(&entry.path, entry.line, entry.value)? {
             Value::Text(text) => Ok(text),
-            other => Err(self.wrong_type(&entry.path, entry.line, "a string", other.describe())),
+            other => Err(self.wrong_type(&entry.path, entry.line, "a string", &other.describe())),
         }
     }
 

@@ -9,6 +9,7 @@ use engine::aircraft::Params as Aircraft;
 use engine::display::{Nacelles, Wing};
 use engine::frames::{Structural, Vec3};
 use engine::math::{FRAC_PI_2, PI, TAU, cos, max, sin, sqrt, tan};
+use engine::table::axis::RadialStation;
 
 /// Of a rotor's disc, m.
 const DISC_M: f64 = 0.04;
@@ -215,7 +216,7 @@ fn rotor(aircraft: &Aircraft) -> String {
     let mut visuals = visual([0.0; 3], UPRIGHT, &cylinder(radius_m, DISC_M), "disc");
     let middle_m = 0.5 * (1.0 + blade.root_norm) * radius_m;
     let length_m = (1.0 - blade.root_norm) * radius_m;
-    let size_m = [length_m, blade.blade_chord_m.at(1.0), BLADE_M];
+    let size_m = [length_m, blade.blade_chord_m.at(RadialStation(1.0)), BLADE_M];
     for number in 0..blade.count as u32 {
         let azimuth_rad = PI + TAU * f64::from(number) / blade.count;
         visuals += &visual(

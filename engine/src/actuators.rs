@@ -18,6 +18,7 @@ use crate::controls::Commands;
 use crate::math::{clamp, exp};
 use crate::pair::Pair;
 use crate::table::Table1;
+use crate::table::axis::MastTilt;
 
 /// One kind of actuator.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -50,7 +51,7 @@ pub struct Params {
     /// Flap.
     pub flap: Actuator,
     /// Nacelle rate over mast tilt.
-    pub nacelle_radps: Table1,
+    pub nacelle_radps: Table1<MastTilt>,
     /// Mast tilt at the aft stop.
     pub mast_tilt_rad_min: f64,
     /// Mast tilt at the down stop.
@@ -135,7 +136,7 @@ pub fn update(params: &Params, parts: &Parts, state: &State, commands: &Commands
         position.zip(command).map(|(at, to)| actuator.toward(part, at, to))
     };
     let mast_tilt_rad = state.mast_tilt_rad.map(|tilt_rad| {
-        let rate_radps = -commands.nacelle_aft_norm * params.nacelle_radps.at(tilt_rad);
+        let rate_radps = -commands.nacelle_aft_norm * params.nacelle_radps.at(MastTilt(tilt_rad));
         clamp(tilt_rad + rate_radps * STEP_S, params.mast_tilt_rad_min, params.mast_tilt_rad_max)
     });
     let gear_step = STEP_S / params.gear_s;

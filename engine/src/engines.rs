@@ -22,6 +22,7 @@ use crate::isa::{PRESSURE_SL_PA, TEMPERATURE_SL_K};
 use crate::math::{clamp, max, min, sqrt};
 use crate::pair::Pair;
 use crate::table::Table1;
+use crate::table::axis::EngineLever;
 
 /// An engine's torque goes up to this, over the continuous limit.
 pub const TORQUE_NORM_MAX: f64 = 1.3;
@@ -39,7 +40,7 @@ pub struct Params {
     /// f_idle: part of the available power at the bottom of the lever.
     pub idle_power_norm: f64,
     /// f over lever position, 0..1.
-    pub power_by_lever_norm: Table1,
+    pub power_by_lever_norm: Table1<EngineLever>,
     /// τ.
     pub lag_s: f64,
     /// Continuous torque limit of one mast.
@@ -116,7 +117,7 @@ pub fn evaluate(params: &Params, state: &Pair<State>, inputs: &Inputs) -> (Rate,
     let by_temperature =
         1.0 - hotter * (params.temperature_loss + params.temperature_loss_growth * hotter);
     let available_w = max(0.0, params.rated_power_w * referred * by_temperature);
-    let power_norm = params.power_by_lever_norm.at(inputs.lever_norm);
+    let power_norm = params.power_by_lever_norm.at(EngineLever(inputs.lever_norm));
     let wanted_w =
         available_w * (params.idle_power_norm + (1.0 - params.idle_power_norm) * power_norm);
     let running = Pair {
@@ -179,7 +180,7 @@ mod tests {
             temperature_loss: 2.9,
             temperature_loss_growth: 0.0,
             idle_power_norm: 0.1,
-            power_by_lever_norm: Table1 { x: vec![0.0, 1.0], y: vec![0.0, 1.0] },
+            power_by_lever_norm: Table1::new(vec![0.0, 1.0], vec![0.0, 1.0]),
             lag_s: 0.5,
             torque_n_m_max: 18e3,
             drive_inertia_kg_m2: 150.0,

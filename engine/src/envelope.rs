@@ -15,6 +15,7 @@ use serde::Deserialize;
 
 use crate::controls::FLAP_DETENT_LAST;
 use crate::math::min;
+use crate::table::axis::{MastTilt, RotorSpeed};
 use crate::table::{Invalid, Table1, all_valid};
 
 /// Not higher than this above the ground the corridor is not asked for, m: what the wing does there is the
@@ -42,20 +43,20 @@ pub struct Params {
 #[serde(deny_unknown_fields)]
 pub struct Corridor {
     /// Slowest, over mast tilt: below it the wing is near its stall. 0 where there is no slowest.
-    pub calibrated_airspeed_mps_min: Table1,
+    pub calibrated_airspeed_mps_min: Table1<MastTilt>,
     /// Fastest, over mast tilt: above it rotors and masts bend too much.
-    pub calibrated_airspeed_mps_max: Table1,
+    pub calibrated_airspeed_mps_max: Table1<MastTilt>,
 }
 
 impl Corridor {
     /// The slowest calibrated airspeed at a mast tilt, m/s; 0 where there is none.
     pub fn slowest_mps(&self, mast_tilt_rad: f64) -> f64 {
-        self.calibrated_airspeed_mps_min.at(mast_tilt_rad)
+        self.calibrated_airspeed_mps_min.at(MastTilt(mast_tilt_rad))
     }
 
     /// The fastest calibrated airspeed at a mast tilt, m/s.
     pub fn fastest_mps(&self, mast_tilt_rad: f64) -> f64 {
-        self.calibrated_airspeed_mps_max.at(mast_tilt_rad)
+        self.calibrated_airspeed_mps_max.at(MastTilt(mast_tilt_rad))
     }
 
     /// How far inside the corridor a calibrated airspeed is, m/s; negative outside.
@@ -134,7 +135,7 @@ pub struct Rotors {
     /// Below this part of the selected Ω the crew is warned.
     pub underspeed_norm: f64,
     /// Torque of one mast for a short time, over Ω. The continuous limit is that of the engines.
-    pub short_torque_n_m_max: Table1,
+    pub short_torque_n_m_max: Table1<RotorSpeed>,
 }
 
 /// Weight, and what a landing may be.
@@ -185,11 +186,8 @@ mod tests {
     /// Straight lines: slowest 0 to 40 m/s and fastest 30 to 60 m/s over 0 to 1 rad.
     fn corridor() -> Corridor {
         Corridor {
-            calibrated_airspeed_mps_min: Table1 {
-                x: vec![0.0, 0.5, 1.0],
-                y: vec![0.0, 20.0, 40.0],
-            },
-            calibrated_airspeed_mps_max: Table1 { x: vec![0.0, 0.8], y: vec![30.0, 60.0] },
+            calibrated_airspeed_mps_min: Table1::new(vec![0.0, 0.5, 1.0], vec![0.0, 20.0, 40.0]),
+            calibrated_airspeed_mps_max: Table1::new(vec![0.0, 0.8], vec![30.0, 60.0]),
         }
     }
 
@@ -221,10 +219,10 @@ mod tests {
         );
         // Not at the corners of its own limit: at one of the other's.
         let mut crossed = corridor();
-        crossed.calibrated_airspeed_mps_max = Table1 { x: vec![0.0, 1.0], y: vec![19.0, 61.0] };
+        crossed.calibrated_airspeed_mps_max = Table1::new(vec![0.0, 1.0], vec![19.0, 61.0]);
         assert_eq!(crossed.validate(), Ok(()));
         crossed.calibrated_airspeed_mps_min =
-            Table1 { x: vec![0.0, 0.4, 1.0], y: vec![0.0, 40.0, 41.0] };
+            Table1::new(vec![0.0, 0.4, 1.0], vec![0.0, 40.0, 41.0]);
         assert_eq!(
             crossed.validate().err().map(|at| at.key),
             Some("envelope.corridor.calibrated_airspeed_min")

@@ -5,6 +5,7 @@ use engine::frames::{Attitude, Body, Euler, Load, Vec3};
 use engine::inputs::World;
 use engine::math::atan2;
 use engine::pair::Pair;
+use engine::table::axis::AdvanceRatio;
 use engine::{Aircraft, Outputs, State};
 
 use crate::book::{Band, Book, Case, Class, DEG, FOOT_M, POUND_N};
@@ -86,7 +87,7 @@ fn held(aircraft: &Aircraft, printed: &Printed) -> (Outputs, Outputs) {
     // The printed velocity has the other rotor's upwash in it; a rotor remembers its own.
     let tip_mps = settled.plant.rotor_speed_radps * aircraft.rotors.radius_m;
     let abreast = &aircraft.rotors.other_rotor.abreast;
-    let own = 1.0 / (1.0 + abreast.at(printed.forward_ftps * FOOT_M / tip_mps));
+    let own = 1.0 / (1.0 + abreast.at(AdvanceRatio(printed.forward_ftps * FOOT_M / tip_mps)));
     for rotor in [&mut forced.plant.rotors.left, &mut forced.plant.rotors.right] {
         rotor.inflow.mean_mps = own * printed.induced_ftps * FOOT_M;
     }

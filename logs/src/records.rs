@@ -8,11 +8,11 @@ use crate::level::Level;
 
 pub use crate::container::time_ns;
 
-/// Version of the log's format: its records, channels and seals. The fields of a message are not part
+/// Version of the log's format: its records, channels and checksums. The fields of a message are not part
 /// of it; each log names its own.
 pub const FORMAT_VERSION: &str = "4";
-/// The formats that are read. 1 had no seals, and at first no footer record of the writer; 2 knew no devices,
-/// and two message types by one name; 3 knew no restarts.
+/// The formats that are read. 1 had no checksums of metadata and messages, and at first no footer record of
+/// the writer; 2 knew no devices, and two message types by one name; 3 knew no restarts.
 pub const FORMATS_READ: [&str; 4] = ["1", "2", "3", FORMAT_VERSION];
 
 /// Raw device events, one message each, in the order they were applied.

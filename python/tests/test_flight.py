@@ -174,7 +174,7 @@ def test_a_flight_that_was_broken_off_says_so(tmp_path, command, raised, words):
     assert tiltrotor.verify(log)
     said = command("log", "find", log)
     assert words in said.stdout, said
-    assert "the hands are done" not in said.stdout
+    assert "the pilot model or script has ended" not in said.stdout
 
 
 def test_the_log_says_which_program_flew(hover):

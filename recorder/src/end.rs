@@ -5,7 +5,7 @@ use crate::controller::GaveUp;
 /// Why a flight ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// The hands are done.
+    /// The pilot model or the script has ended.
     Done,
     /// It was to last no longer.
     TimeUp,
@@ -30,7 +30,7 @@ impl End {
 impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Done => f.write_str("end of the flight: the hands are done"),
+            Self::Done => f.write_str("end of the flight: the pilot model or script has ended"),
             Self::TimeUp => f.write_str("end of the flight: the time given is over"),
             Self::Stopped(None) => f.write_str("ended by the crew"),
             Self::Stopped(Some(signal)) => write!(f, "ended by a signal: {signal}"),

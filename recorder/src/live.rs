@@ -44,7 +44,7 @@ fn claim(real_time: Option<RealTime>) -> Vec<String> {
 /// Number and name of a phase of the flight.
 type Phase = (u64, &'static str);
 
-/// Flies until the hands are done, the time is up, or `progress.stop` is set.
+/// Flies until pilot model or script has ended, the time is up, or `progress.stop` is set.
 ///
 /// # Errors
 /// When the log cannot be begun, or the flight. What goes wrong later is in the [`Landing`].
@@ -202,7 +202,7 @@ where
         })
     }
 
-    /// Flies until the hands are done, the time is up, or someone wants it to end.
+    /// Flies until pilot model or script has ended, the time is up, or someone wants it to end.
     pub(crate) fn fly(mut self) -> Landing {
         let end = loop {
             if let Some(gave_up) = self.controllers.gave_up {

@@ -23,7 +23,7 @@ pub struct RehearsedTick<'a> {
     pub phase: &'static str,
 }
 
-/// Flies until the hands are done or the time is up; `look` sees every tick. The inputs are the same
+/// Flies until pilot model or script has ended or the time is up; `look` sees every tick. The inputs are the same
 /// as those of [`fly`](crate::fly()), and so are the bits.
 ///
 /// # Errors

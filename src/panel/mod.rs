@@ -4,7 +4,9 @@
 
 mod cockpit;
 mod draw;
+mod instruments;
 mod keys;
+mod look;
 mod screen;
 
 use std::collections::VecDeque;
@@ -19,8 +21,8 @@ use recorder::keyboard::{KeyAction, Order, Orders};
 use recorder::{Progress, Restart, Situation, Told};
 
 pub use cockpit::Cockpit;
-use draw::{Look, Page};
 use keys::{Key, meaning};
+use look::{Look, Page};
 use screen::Screen;
 
 /// Between two pictures.

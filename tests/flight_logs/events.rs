@@ -158,7 +158,10 @@ fn a_pilot_reconverts_from_the_slow_rotors_of_an_aeroplane_and_lands() {
     let more = ["--pilot", "land", "--nacelle", "0", "--speed-kt", "180"];
     let (log, said) = fly(&place, "", &more);
     said.ends(OK);
-    assert_eq!(words(&log, FlightEvent::Landed), ["end of the flight: the hands are done"]);
+    assert_eq!(
+        words(&log, FlightEvent::Landed),
+        ["end of the flight: the pilot model or script has ended"]
+    );
     let touchdowns = told(&log, FlightEvent::WeightOnWheels);
     assert!(touchdowns.iter().any(|(event, _)| event.value == 1), "{touchdowns:?}");
     assert!(words(&log, FlightEvent::Impact).is_empty());

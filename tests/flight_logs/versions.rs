@@ -287,7 +287,7 @@ fn a_compacted_log_of_another_layout_is_refused_by_its_format_in_every_verb() {
 }
 
 /// The corpus's flight by this program, with something changed and the digests formed anew. Without
-/// seals, as the first log format was.
+/// checksums, as the first log format was.
 fn short_flight(name: &str, change: impl FnOnce(&mut Forgery)) -> PathBuf {
     let folder = folder(name);
     let flown = folder.join("flown.mcap");

@@ -57,6 +57,8 @@ const SHARED: &[&str] = &[
     "pair",
     "struts",
     "table",
+    "table::axis",
+    "table::read",
     "units",
 ];
 

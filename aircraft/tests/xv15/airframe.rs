@@ -13,6 +13,7 @@ use engine::mast::TiltedMast;
 use engine::math::{PI, sqrt, square};
 use engine::motion::Motion;
 use engine::pair::Pair;
+use engine::table::axis::AdvanceRatio;
 use engine::units::{DEGREE_RAD as DEG, FOOT_M as FT, POUND_N as LBF};
 
 const FT_LBF: f64 = FT * LBF;
@@ -332,7 +333,7 @@ fn val_the_printed_induced_velocities_stand_in_the_other_rotors_upwash() {
         let mean = of.iter().sum::<f64>() / 4.0;
         of.iter().fold(0.0, |most, one| engine::math::max(most, (one / mean - 1.0).abs()))
     };
-    let with = tip_losses(&|mu| xv15.rotors.other_rotor.abreast.at(mu));
+    let with = tip_losses(&|mu| xv15.rotors.other_rotor.abreast.at(AdvanceRatio(mu)));
     let without = tip_losses(&|_| 0.0);
     println!("with X_SS {with:.4?}, without {without:.4?}");
     assert!(spread(with) < INDUCED_TOLERANCE, "{with:?}");

@@ -8,7 +8,8 @@ use engine::math::PI;
 use engine::pair::Pair;
 use engine::state::Plant;
 use engine::symmetry::Mirror;
-use engine::table::{Table1, Table2, Table3};
+use engine::table::axis::{Airspeed, Alpha, Beta, ElevatorAngle, FlapAngle, MastTilt};
+use engine::table::{Axis, Table1, Table2, Table3};
 use engine::units::{DEGREE_RAD as DEG, KNOT_MPS as KT};
 use engine::{Aircraft, Inputs, Outputs, State, actuators};
 
@@ -37,6 +38,18 @@ fn val_drag_across_the_flow_is_the_tunnels_where_the_print_is_not_used() {
         let full = across(75.0, alpha);
         assert!((1.09..1.21).contains(&full), "{full}");
     }
+}
+
+fn tilted(deg: f64) -> MastTilt {
+    MastTilt(deg * DEG)
+}
+
+fn from_below(deg: f64) -> Alpha {
+    Alpha(deg * DEG)
+}
+
+fn flying(kt: f64) -> Airspeed {
+    Airspeed(kt * KT)
 }
 
 /// Points of the print, typed again by hand: corners, odd breakpoints, and columns easily confused.
@@ -81,22 +94,23 @@ fn val_coefficients_at_tabulated_points_are_the_printed_ones() {
     for (alpha, elevator, printed) in
         [(-15.6, -15.0, -1.38), (12.2, 20.0, 1.48), (4.0, 0.0, 0.284), (-170.0, 10.0, 1.1)]
     {
-        reads(tail.lift.at(alpha * DEG, elevator * DEG), printed);
+        reads(tail.lift.at(Alpha(alpha * DEG), ElevatorAngle(elevator * DEG)), printed);
     }
-    reads(tail.lift_by_mach.odd_at(0.4, -24.0 * DEG, -0.935), -0.90);
-    reads(tail.downwash_rad.at(60.0 * DEG, 8.0 * DEG, 40.0 * DEG) / DEG, 8.18);
-    reads(tail.pressure_ratio.at(15.0 * DEG, -4.0 * DEG, 20.0 * KT), 2.44);
+    reads(tail.lift_by_mach.odd_at(0.4, Alpha(-24.0 * DEG), -0.935), -0.90);
+    let downwash_rad = tail.downwash_rad.at(tilted(60.0), from_below(8.0), FlapAngle(40.0 * DEG));
+    reads(downwash_rad / DEG, 8.18);
+    reads(tail.pressure_ratio.at(tilted(15.0), from_below(-4.0), flying(20.0)), 2.44);
     let wake = &xv15.rotor_wake;
-    reads(wake.tail_ratio.at(0.0, -12.0 * DEG, 80.0 * KT), -1.13);
-    reads(wake.tail_ratio.at(30.0 * DEG, 4.0 * DEG, 80.0 * KT), -0.60);
-    reads(wake.sideslip_factor.at(24.0 * DEG, 30.0 * DEG), 0.225);
+    reads(wake.tail_ratio.at(tilted(0.0), from_below(-12.0), flying(80.0)), -1.13);
+    reads(wake.tail_ratio.at(tilted(30.0), from_below(4.0), flying(80.0)), -0.60);
+    reads(wake.sideslip_factor.at(Beta(24.0 * DEG), tilted(30.0)), 0.225);
     let fins = &xv15.vertical_stabilizers;
     for (beta, rudder, printed) in
         [(-18.0, -20.0, -1.3584), (18.0, 20.0, 1.3584), (-4.0, 0.0, -0.2125), (-170.0, 15.0, 0.73)]
     {
         reads(fins.slow_side_force(beta * DEG, rudder * DEG), printed);
     }
-    reads(fins.rotor_sidewash.at(40.0 * KT, 0.0), -0.5);
+    reads(fins.rotor_sidewash.at(flying(40.0), Beta(0.0)), -0.5);
     for (flap, tilt, alpha, beta, printed) in [
         (0.0, 90.0, 13.0, 12.0, 0.622),
         (0.0, 30.0, 0.0, 2.0, 1.248),
@@ -107,8 +121,8 @@ fn val_coefficients_at_tabulated_points_are_the_printed_ones() {
         (75.0, 90.0, 28.0, 90.0, 1.0),
     ] {
         let flap = Flap::new(flap * DEG);
-        let ours = fins.fuselage_sidewash.at(flap, tilt * DEG, alpha * DEG, beta * DEG);
-        reads(ours, printed);
+        let sidewash = &fins.fuselage_sidewash;
+        reads(sidewash.at(flap, tilted(tilt), from_below(alpha), Beta(beta * DEG)), printed);
     }
 }
 
@@ -126,13 +140,24 @@ fn the_pylons_drag_goes_with_how_far_they_stand_across_the_flow() {
 }
 
 /// The steepest straight line of a table.
-fn steepest(table: &Table1) -> f64 {
+fn steepest<X: Axis>(table: &Table1<X>) -> f64 {
     let lines = table.x.windows(2).zip(table.y.windows(2));
     lines.map(|(x, y)| ((y[1] - y[0]) / (x[1] - x[0])).abs()).fold(0.0, engine::math::max)
 }
 
-fn steepest_of<'a>(tables: impl IntoIterator<Item = &'a Table1>) -> f64 {
+fn steepest_of<'a, X: Axis + 'a>(tables: impl IntoIterator<Item = &'a Table1<X>>) -> f64 {
     tables.into_iter().map(steepest).fold(0.0, engine::math::max)
+}
+
+/// The columns of a table over two arguments, each over the first.
+fn columns<X: Axis, Y: Axis>(table: &Table2<X, Y>) -> Vec<Table1<X>> {
+    let column = |j: usize| table.z.iter().map(|row| row[j]).collect();
+    (0..table.y.len()).map(|j| Table1::new(table.x.clone(), column(j))).collect()
+}
+
+/// The steepest line of tables by Mach number, which go over to others.
+fn by_mach<A: Axis>(by: &ByMach<A>) -> f64 {
+    steepest_of(by.columns()) + FADE
 }
 
 /// No step over ±180°, once round, is larger than the steepest printed line allows.
@@ -185,75 +210,74 @@ fn no_coefficient_jumps_more_than_its_print() {
     }
     let tail = &xv15.horizontal_stabilizer;
     let fins = &xv15.vertical_stabilizers;
-    let columns = |table: &Table2| {
-        (0..table.y.len())
-            .map(|j| Table1 { x: table.x.clone(), y: table.z.iter().map(|row| row[j]).collect() })
-            .collect::<Vec<_>>()
-    };
-    let by_mach = |by: &ByMach| steepest_of(by.columns()) + FADE;
     for (mach, control) in [(0.1, 0.0), (0.1, 18.0), (0.3, -7.0), (0.55, 20.0)] {
         let control = control * DEG;
         has_no_jumps(
             "tail CL",
             steepest_of(&columns(&tail.lift)) + by_mach(&tail.lift_by_mach),
-            |a| tail.lift_by_mach.odd_at(mach, a, tail.lift.at(a, control)),
+            |a| {
+                let slow = tail.lift.at(Alpha(a), ElevatorAngle(control));
+                tail.lift_by_mach.odd_at(mach, Alpha(a), slow)
+            },
         );
         has_no_jumps("tail CD", steepest(&tail.drag) + by_mach(&tail.drag_by_mach), |a| {
-            tail.drag_by_mach.at(mach, a, tail.drag.at(a))
+            tail.drag_by_mach.at(mach, Alpha(a), tail.drag.at(Alpha(a)))
         });
         has_no_jumps("fin CY", steepest_of(&columns(&fins.side_force)), |b| {
             fins.slow_side_force(b, control)
         });
         has_no_jumps("fin CD", steepest(&fins.drag) + by_mach(&fins.drag_by_mach), |b| {
-            fins.drag_by_mach.at(mach, b.abs(), fins.drag.at(b.abs()))
+            let angle = Beta(b.abs());
+            fins.drag_by_mach.at(mach, angle, fins.drag.at(angle))
         });
     }
 }
 
 #[test]
 fn every_table_gives_back_every_number_it_holds() {
-    fn all(value: &Table3) {
-        for (x, rows) in value.x.iter().zip(&value.w) {
-            for (y, row) in value.y.iter().zip(rows) {
-                for (z, &w) in value.z.iter().zip(row) {
-                    reads(value.at(*x, *y, *z), w);
+    fn one<X: Axis>(table: &Table1<X>) {
+        for (x, &y) in table.x.iter().zip(&table.y) {
+            reads(table.at(X::new(*x)), y);
+        }
+    }
+    fn two<X: Axis, Y: Axis>(table: &Table2<X, Y>) {
+        for (x, row) in table.x.iter().zip(&table.z) {
+            for (y, &z) in table.y.iter().zip(row) {
+                reads(table.at(X::new(*x), Y::new(*y)), z);
+            }
+        }
+    }
+    fn three<X: Axis, Y: Axis, Z: Axis>(table: &Table3<X, Y, Z>) {
+        for (x, rows) in table.x.iter().zip(&table.w) {
+            for (y, row) in table.y.iter().zip(rows) {
+                for (z, &w) in table.z.iter().zip(row) {
+                    reads(table.at(X::new(*x), Y::new(*y), Z::new(*z)), w);
                 }
             }
         }
     }
     let xv15 = xv15();
-    all(&xv15.rotor_wake.tail_ratio);
-    all(&xv15.horizontal_stabilizer.downwash_rad);
-    all(&xv15.horizontal_stabilizer.pressure_ratio);
-    xv15.vertical_stabilizers.fuselage_sidewash.columns().into_iter().for_each(all);
+    three(&xv15.rotor_wake.tail_ratio);
+    three(&xv15.horizontal_stabilizer.downwash_rad);
+    three(&xv15.horizontal_stabilizer.pressure_ratio);
+    xv15.vertical_stabilizers.fuselage_sidewash.columns().into_iter().for_each(three);
     let (wing, tail, fins) =
         (&xv15.wing_pylon, &xv15.horizontal_stabilizer, &xv15.vertical_stabilizers);
-    for table in [
-        &xv15.rotor_wake.sideslip_factor,
-        &wing.pitching_moment,
-        &wing.rolling_by_sideslip_per_rad,
-        &tail.lift,
-        &fins.side_force,
-        &fins.rotor_sidewash,
-    ] {
-        for (x, row) in table.x.iter().zip(&table.z) {
-            for (y, &z) in table.y.iter().zip(row) {
-                reads(table.at(*x, *y), z);
-            }
-        }
-    }
+    two(&xv15.rotor_wake.sideslip_factor);
+    two(&wing.pitching_moment);
+    two(&wing.rolling_by_sideslip_per_rad);
+    two(&tail.lift);
+    two(&fins.side_force);
+    two(&fins.rotor_sidewash);
     let polars = [&wing.lift, &wing.drag].into_iter();
     let by_mach = polars.clone().flat_map(|polar| polar.aeroplane_by_mach.columns());
-    for table in polars
+    polars
         .flat_map(|polar| [&polar.upright, &polar.aeroplane])
         .flat_map(ByFlap::columns)
         .chain(by_mach)
-        .chain([&xv15.fuselage.lift_m2, &xv15.fuselage.pitching_by_sideslip_m3, &tail.drag])
-    {
-        for (x, &y) in table.x.iter().zip(&table.y) {
-            reads(table.at(*x), y);
-        }
-    }
+        .chain([&xv15.fuselage.lift_m2, &tail.drag])
+        .for_each(one);
+    one(&xv15.fuselage.pitching_by_sideslip_m3);
 }
 
 // ----------------------------------------------------------------- everywhere, and on both sides

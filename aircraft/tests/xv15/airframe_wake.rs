@@ -5,6 +5,7 @@ use engine::aero::wake_footprint::{Footprint, footprint};
 use engine::aero::{local_flow, wing_pylon};
 use engine::frames::{Body, Vec3};
 use engine::motion::Motion;
+use engine::table::axis::{FlapAngle, MastTilt};
 use engine::units::{DEGREE_RAD as DEG, FOOT_M as FT, INCH_M as INCH, KNOT_MPS as KT};
 
 /// Half the chord, SL 338.19 less half of 5.225 ft, and the centre of gravity's station.
@@ -166,7 +167,7 @@ fn as_an_aeroplane_roll_and_yaw_are_damped_as_published_and_once() {
         assert!(footprint(wing, &cruise).area_m2 > 0.25 * wing.area_m2);
         let flap = engine::aero::polar::Flap::new(0.0);
         let cl = wing.lift.lift_at(cruise.mast.tilt_rad, flap, 0.0, cruise.alpha_rad);
-        let cd0 = wing.drag_at_no_lift.at(cruise.mast.tilt_rad, 0.0);
+        let cd0 = wing.drag_at_no_lift.at(MastTilt(cruise.mast.tilt_rad), FlapAngle(0.0));
         let published = [-0.774, 0.27 * cl, -0.06 * cl, -0.016 * cl * cl - 0.32 * cd0];
         let ours = rate_derivatives(&xv15, &cruise);
         let faster = xv15.rotor_wake.wing_factor * v / velocity.norm();

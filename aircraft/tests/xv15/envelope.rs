@@ -7,6 +7,7 @@ use engine::envelope::Corridor;
 use engine::inputs::World;
 use engine::math::{FRAC_PI_2, PI};
 use engine::outputs::Validity;
+use engine::table::axis::RotorSpeed;
 use engine::units::{DEGREE_RAD as DEG, KNOT_MPS};
 use engine::{Aircraft, Inputs, State};
 
@@ -66,7 +67,7 @@ fn limits_arrive_in_si() {
     close(envelope.airspeed.flap_mps_max[2], 170.0 * KNOT_MPS);
     close(envelope.rotors.rated_radps, 601.0 * PI / 30.0);
     close(
-        envelope.rotors.short_torque_n_m_max.at(565.0 * PI / 30.0),
+        envelope.rotors.short_torque_n_m_max.at(RotorSpeed(565.0 * PI / 30.0)),
         163e3 / 12.0 * 1.355_817_948_331_400_4,
     );
     close(envelope.airframe.touchdown_sink_mps_max, 3.048);

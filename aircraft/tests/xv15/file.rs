@@ -5,6 +5,7 @@ use engine::frames::Vec3;
 use engine::inputs::World;
 use engine::math::{PI, square};
 use engine::symmetry::Mirror;
+use engine::table::axis::{Airspeed, MastTilt};
 use engine::units::DEGREE_RAD as DEG;
 use engine::{Aircraft, Inputs, State};
 
@@ -37,10 +38,15 @@ fn numbers_arrive_in_si() {
 #[test]
 fn tables_arrive_in_si() {
     let mixer = xv15().fcc.mixer.clone();
-    close(mixer.collective_per_lever_rad_per_m.at(0.0), 1.6 * DEG / 0.0254);
-    close(mixer.collective_per_lever_rad_per_m.at(45.0 * DEG), 0.5 * (0.92 + 0.71) * DEG / 0.0254);
+    close(mixer.collective_per_lever_rad_per_m.at(MastTilt(0.0)), 1.6 * DEG / 0.0254);
     close(
-        mixer.cyclic_per_pedal_rad_per_m.at(60.0 * DEG, 80.0 * engine::units::KNOT_MPS),
+        mixer.collective_per_lever_rad_per_m.at(MastTilt(45.0 * DEG)),
+        0.5 * (0.92 + 0.71) * DEG / 0.0254,
+    );
+    close(
+        mixer
+            .cyclic_per_pedal_rad_per_m
+            .at(MastTilt(60.0 * DEG), Airspeed(80.0 * engine::units::KNOT_MPS)),
         0.52 * DEG / 0.0254,
     );
 }

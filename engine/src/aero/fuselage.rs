@@ -21,6 +21,7 @@ use super::{LocalFlow, ahead};
 use crate::frames::{Load, Structural, Vec3};
 use crate::math::{FRAC_PI_2, PI, sign, sin_cos, square};
 use crate::motion::Motion;
+use crate::table::axis::{Alpha, Beta};
 use crate::table::{Invalid, Table1, all_valid};
 
 /// What the fuselage is. Tables over α are printed for ±90°, those over β for positive ones.
@@ -30,23 +31,23 @@ pub struct Params {
     /// Reference point.
     pub centre_m: Vec3<Structural>,
     /// L_α.
-    pub lift_m2: Table1,
+    pub lift_m2: Table1<Alpha>,
     /// D_α.
-    pub drag_m2: Table1,
+    pub drag_m2: Table1<Alpha>,
     /// M_α.
-    pub pitching_m3: Table1,
+    pub pitching_m3: Table1<Alpha>,
     /// L_β.
-    pub lift_by_sideslip_m2: Table1,
+    pub lift_by_sideslip_m2: Table1<Beta>,
     /// D_β.
-    pub drag_by_sideslip_m2: Table1,
+    pub drag_by_sideslip_m2: Table1<Beta>,
     /// M_β.
-    pub pitching_by_sideslip_m3: Table1,
+    pub pitching_by_sideslip_m3: Table1<Beta>,
     /// Y.
-    pub side_m2: Table1,
+    pub side_m2: Table1<Beta>,
     /// l.
-    pub rolling_m3: Table1,
+    pub rolling_m3: Table1<Beta>,
     /// N.
-    pub yawing_m3: Table1,
+    pub yawing_m3: Table1<Beta>,
     /// LBFO.
     pub lift_offset_m2: f64,
     /// DBFO.
@@ -107,8 +108,9 @@ fn folded(alpha_rad: f64) -> (f64, f64) {
 pub fn evaluate(params: &Params, inputs: &Inputs) -> Load {
     let flow = inputs.flow;
     let q = flow.pressure_pa;
-    let (alpha, lift_sign) = folded(flow.alpha_rad);
-    let (beta, side) = (flow.beta_rad.abs(), sign(flow.beta_rad));
+    let (alpha_rad, lift_sign) = folded(flow.alpha_rad);
+    let (beta, side) = (Beta(flow.beta_rad.abs()), sign(flow.beta_rad));
+    let alpha = Alpha(alpha_rad);
     let (sin_beta, cos_beta) = sin_cos(flow.beta_rad);
     let cos2_beta = square(cos_beta);
 

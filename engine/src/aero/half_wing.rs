@@ -7,6 +7,7 @@ use super::polar::Polar;
 use crate::frames::{Body, Structural, Vec3};
 use crate::mast::TiltedMast;
 use crate::motion::Motion;
+use crate::table::axis::{CrossflowAngle, FlapAngle, MastTilt};
 use crate::table::{Invalid, Table1, Table2, all_valid};
 
 /// What a half wing is.
@@ -26,13 +27,13 @@ pub struct Params {
     /// CD.
     pub drag: Polar,
     /// Cm over mast tilt and flap.
-    pub pitching_moment: Table2,
+    pub pitching_moment: Table2<MastTilt, FlapAngle>,
     /// CD0, at no lift, over mast tilt and flap.
-    pub drag_at_no_lift: Table2,
+    pub drag_at_no_lift: Table2<MastTilt, FlapAngle>,
     /// Clβ at no lift, over mast tilt and flap.
-    pub rolling_by_sideslip_per_rad: Table2,
+    pub rolling_by_sideslip_per_rad: Table2<MastTilt, FlapAngle>,
     /// What Clβ grows by with CL.
-    pub rolling_by_sideslip_and_lift_per_rad: Table2,
+    pub rolling_by_sideslip_and_lift_per_rad: Table2<MastTilt, FlapAngle>,
     /// Clp.
     pub rolling_by_roll_rate: f64,
     /// Clr/CL.
@@ -50,21 +51,21 @@ pub struct Params {
     /// Clδa.
     pub rolling_by_flaperon_per_rad: f64,
     /// K over mast tilt and flap.
-    pub flaperon_factor: Table2,
+    pub flaperon_factor: Table2<MastTilt, FlapAngle>,
     /// CLδa over flap.
-    pub lift_loss_by_flaperon_per_rad: Table1,
+    pub lift_loss_by_flaperon_per_rad: Table1<FlapAngle>,
     /// K_n0 over mast tilt and flap.
-    pub yawing_by_flaperon_per_rad: Table2,
+    pub yawing_by_flaperon_per_rad: Table2<MastTilt, FlapAngle>,
     /// K_n over mast tilt and flap.
-    pub yawing_by_flaperon_and_lift: Table2,
+    pub yawing_by_flaperon_and_lift: Table2<MastTilt, FlapAngle>,
     /// SL_WTE: fuselage station of the trailing edge.
     pub trailing_edge_station_m: f64,
     /// D_PYINT of both pylons over mast tilt.
-    pub interference_m2: Table1,
+    pub interference_m2: Table1<MastTilt>,
     /// S_PLAT of one pylon.
     pub platform_m2: f64,
     /// K_PLAT over the angle of the flow from the side.
-    pub platform_factor: Table1,
+    pub platform_factor: Table1<CrossflowAngle>,
     /// Drag area of a spinner along its mast.
     pub spinner_m2: f64,
     /// Added when the flow comes across.

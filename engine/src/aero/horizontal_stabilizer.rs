@@ -25,6 +25,7 @@ use super::{LocalFlow, in_body_axes, load_at};
 use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{atan2, max, min, sqrt, square, wrap_angle};
 use crate::motion::Motion;
+use crate::table::axis::{Airspeed, Alpha, Beta, ElevatorAngle, FlapAngle, Mach, MastTilt};
 use crate::table::{Invalid, Table1, Table2, Table3, all_valid};
 use crate::units::DEGREE_RAD as DEG;
 
@@ -54,25 +55,25 @@ pub struct Params {
     /// D_Ke.
     pub elevator_loss: f64,
     /// X_Ke over Mach number.
-    pub elevator_by_mach: Table1,
+    pub elevator_by_mach: Table1<Mach>,
     /// CL over α_H and δe, at Mach number .2 and below.
-    pub lift: Table2,
+    pub lift: Table2<Alpha, ElevatorAngle>,
     /// CL above, over the angle with the elevator; odd.
-    pub lift_by_mach: ByMach,
+    pub lift_by_mach: ByMach<Alpha>,
     /// CD over the angle with the elevator, at Mach number .2 and below.
-    pub drag: Table1,
+    pub drag: Table1<Alpha>,
     /// CD above.
-    pub drag_by_mach: ByMach,
+    pub drag_by_mach: ByMach<Alpha>,
     /// CL_Hβ.
     pub lift_by_sideslip_per_rad: f64,
     /// K_β over |β|.
-    pub sideslip_factor: Table1,
+    pub sideslip_factor: Table1<Beta>,
     /// ε over mast tilt, α_WFS and flap.
-    pub downwash_rad: Table3,
+    pub downwash_rad: Table3<MastTilt, Alpha, FlapAngle>,
     /// η over mast tilt, angle of attack and airspeed.
-    pub pressure_ratio: Table3,
+    pub pressure_ratio: Table3<MastTilt, Alpha, Airspeed>,
     /// K_HNU over mast tilt.
-    pub pressure_factor: Table1,
+    pub pressure_factor: Table1<MastTilt>,
 }
 
 /// What the stabiliser remembers.
@@ -131,14 +132,16 @@ impl Params {
 
     /// ε∞: the wing's downwash as it will be at the tail.
     pub fn downwash(&self, inputs: &Inputs) -> f64 {
-        let alpha_rad = wrap_angle(inputs.wing_alpha_rad);
-        let slow = self.downwash_rad.at(inputs.mast_tilt_rad, alpha_rad, inputs.flap_rad);
+        let alpha = Alpha(wrap_angle(inputs.wing_alpha_rad));
+        let (tilt, flap) = (MastTilt(inputs.mast_tilt_rad), FlapAngle(inputs.flap_rad));
+        let slow = self.downwash_rad.at(tilt, alpha, flap);
         slow / sqrt(1.0 - square(min(inputs.mach, MACH_MAX)))
     }
 
     /// η, which the fins share.
     pub fn pressure_ratio_at(&self, mast_tilt_rad: f64, flow: &LocalFlow) -> f64 {
-        self.pressure_ratio.at(mast_tilt_rad, flow.alpha_rad, flow.speed_mps)
+        let (tilt, alpha) = (MastTilt(mast_tilt_rad), Alpha(flow.alpha_rad));
+        self.pressure_ratio.at(tilt, alpha, Airspeed(flow.speed_mps))
     }
 }
 
@@ -157,17 +160,18 @@ pub fn evaluate(params: &Params, state: &State, inputs: &Inputs) -> (Rate, Load)
     let flow_rad = atan2(velocity.z, velocity.x) - state.downwash_rad;
     let alpha = wrap_angle(flow_rad + params.incidence_rad);
     let beyond = max(0.0, inputs.elevator_rad.abs() / ELEVATOR_FULL_RAD - 1.0);
-    let effect = params.elevator_by_mach.at(inputs.mach) - params.elevator_loss * beyond;
-    let with_elevator = wrap_angle(alpha + effect * params.elevator_effect * inputs.elevator_rad);
+    let effect = params.elevator_by_mach.at(Mach(inputs.mach)) - params.elevator_loss * beyond;
+    let with_elevator =
+        Alpha(wrap_angle(alpha + effect * params.elevator_effect * inputs.elevator_rad));
 
-    let slow = params.lift.at(alpha, inputs.elevator_rad);
+    let slow = params.lift.at(Alpha(alpha), ElevatorAngle(inputs.elevator_rad));
     let along = params.lift_by_mach.odd_at(inputs.mach, with_elevator, slow);
     let beta = whole.beta_rad.abs();
-    let lift = params.sideslip_factor.at(beta) * along
+    let lift = params.sideslip_factor.at(Beta(beta)) * along
         + params.lift_by_sideslip_per_rad * min(beta, SIDESLIP_RAD_MAX);
     let drag = params.drag_by_mach.at(inputs.mach, with_elevator, params.drag.at(with_elevator));
 
-    let ratio = params.pressure_factor.at(inputs.mast_tilt_rad) * inputs.pressure_ratio;
+    let ratio = params.pressure_factor.at(MastTilt(inputs.mast_tilt_rad)) * inputs.pressure_ratio;
     let pressure_area = 0.5
         * inputs.motion.density_kg_per_m3
         * ratio

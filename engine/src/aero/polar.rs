@@ -17,7 +17,8 @@
 use serde::Deserialize;
 
 use crate::math::{FRAC_PI_2, clamp, cos, sin_cos};
-use crate::table::Table1;
+use crate::table::axis::Alpha;
+use crate::table::{Axis, Table1};
 use crate::units::DEGREE_RAD as DEG;
 
 /// Within this angle beyond its print a column goes over to a wider one.
@@ -67,18 +68,18 @@ impl Flap {
 #[serde(deny_unknown_fields)]
 pub struct ByFlap {
     /// Flaps up.
-    pub flap_0: Table1,
+    pub flap_0: Table1<Alpha>,
     /// 20/12.5.
-    pub flap_20: Table1,
+    pub flap_20: Table1<Alpha>,
     /// 40/25.
-    pub flap_40: Table1,
+    pub flap_40: Table1<Alpha>,
     /// 75/47.
-    pub flap_75: Table1,
+    pub flap_75: Table1<Alpha>,
 }
 
 impl ByFlap {
     /// By setting, in order.
-    pub fn columns(&self) -> [&Table1; 4] {
+    pub fn columns(&self) -> [&Table1<Alpha>; 4] {
         [&self.flap_0, &self.flap_20, &self.flap_40, &self.flap_75]
     }
 
@@ -91,27 +92,27 @@ impl ByFlap {
 
 /// One table over an angle for each Mach number above .2.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ByMach {
+#[serde(deny_unknown_fields, bound = "")]
+pub struct ByMach<A: Axis> {
     /// .4.
-    pub mach_0_4: Table1,
+    pub mach_0_4: Table1<A>,
     /// .5.
-    pub mach_0_5: Table1,
+    pub mach_0_5: Table1<A>,
     /// .6.
-    pub mach_0_6: Table1,
+    pub mach_0_6: Table1<A>,
 }
 
-impl ByMach {
+impl<A: Axis> ByMach<A> {
     /// The value at an angle, where `slow` is the one at Mach number .2 and below.
-    pub fn at(&self, mach: f64, angle_rad: f64, slow: f64) -> f64 {
+    pub fn at(&self, mach: f64, angle: A, slow: f64) -> f64 {
         if mach <= MACH[0] {
             return slow;
         }
         let column = |i: usize| match i {
             0 => slow,
-            1 => self.mach_0_4.at_or(angle_rad, slow, FADE_RAD),
-            2 => self.mach_0_5.at_or(angle_rad, slow, FADE_RAD),
-            _ => self.mach_0_6.at_or(angle_rad, slow, FADE_RAD),
+            1 => self.mach_0_4.at_or(angle, slow, FADE_RAD),
+            2 => self.mach_0_5.at_or(angle, slow, FADE_RAD),
+            _ => self.mach_0_6.at_or(angle, slow, FADE_RAD),
         };
         let (i, t) = between(&MACH, mach);
         let low = column(i);
@@ -119,16 +120,16 @@ impl ByMach {
     }
 
     /// The same for a table that is odd in its angle and printed for positive ones.
-    pub fn odd_at(&self, mach: f64, angle_rad: f64, slow: f64) -> f64 {
-        if angle_rad < 0.0 {
-            -self.at(mach, -angle_rad, -slow)
+    pub fn odd_at(&self, mach: f64, angle: A, slow: f64) -> f64 {
+        if angle.si() < 0.0 {
+            -self.at(mach, A::new(-angle.si()), -slow)
         } else {
-            self.at(mach, angle_rad, slow)
+            self.at(mach, angle, slow)
         }
     }
 
     /// By Mach number, in order.
-    pub fn columns(&self) -> [&Table1; 3] {
+    pub fn columns(&self) -> [&Table1<A>; 3] {
         [&self.mach_0_4, &self.mach_0_5, &self.mach_0_6]
     }
 
@@ -148,14 +149,14 @@ pub struct Polar {
     /// As an aeroplane, at Mach number .2 and below.
     pub aeroplane: ByFlap,
     /// As an aeroplane, flaps up.
-    pub aeroplane_by_mach: ByMach,
+    pub aeroplane_by_mach: ByMach<Alpha>,
 }
 
 impl Polar {
     /// Lift: in a straight line with the masts' tilt.
     pub fn lift_at(&self, mast_tilt_rad: f64, flap: Flap, mach: f64, alpha_rad: f64) -> f64 {
         let level = clamp(mast_tilt_rad / FRAC_PI_2, 0.0, 1.0);
-        self.at(level, flap, mach, alpha_rad)
+        self.at(level, flap, mach, Alpha(alpha_rad))
     }
 
     /// Drag: with how far the pylons stand across the flow.
@@ -165,18 +166,18 @@ impl Polar {
         let (sin_alpha, cos_alpha) = sin_cos(alpha);
         let level = cube(sin_alpha);
         let across = (cube(cos(mast_tilt_rad - alpha)) - level) / (cube(cos_alpha) - level);
-        self.at(1.0 - clamp(across, 0.0, 1.0), flap, mach, alpha_rad)
+        self.at(1.0 - clamp(across, 0.0, 1.0), flap, mach, Alpha(alpha_rad))
     }
 
     /// The coefficient, from masts upright, 0, to level, 1.
-    fn at(&self, level: f64, flap: Flap, mach: f64, alpha_rad: f64) -> f64 {
+    fn at(&self, level: f64, flap: Flap, mach: f64, alpha: Alpha) -> f64 {
         let column = |i: usize| {
-            let upright = self.upright.columns()[i].at(alpha_rad);
+            let upright = self.upright.columns()[i].at(alpha);
             if level <= 0.0 {
                 return upright;
             }
-            let slow = self.aeroplane.columns()[i].at_or(alpha_rad, upright, FADE_RAD);
-            let fast = if i == 0 { self.aeroplane_by_mach.at(mach, alpha_rad, slow) } else { slow };
+            let slow = self.aeroplane.columns()[i].at_or(alpha, upright, FADE_RAD);
+            let fast = if i == 0 { self.aeroplane_by_mach.at(mach, alpha, slow) } else { slow };
             upright + level * (fast - upright)
         };
         flap.blend(column)

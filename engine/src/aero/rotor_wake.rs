@@ -21,6 +21,7 @@ use crate::frames::{Body, Vec3};
 use crate::math::{PI, max, sin_cos, square};
 use crate::motion::Motion;
 use crate::pair::Pair;
+use crate::table::axis::{Airspeed, Alpha, Beta, MastTilt};
 use crate::table::{Invalid, Table2, Table3, all_valid};
 
 /// Below this advance ratio the rotors deflect the air as at it.
@@ -43,9 +44,9 @@ pub struct Params {
     /// x2.
     pub deflection_per_tilt2_per_rad2: f64,
     /// G over mast tilt, angle of attack and airspeed.
-    pub tail_ratio: Table3,
+    pub tail_ratio: Table3<MastTilt, Alpha, Airspeed>,
     /// F over |β| and mast tilt.
-    pub sideslip_factor: Table2,
+    pub sideslip_factor: Table2<Beta, MastTilt>,
 }
 
 impl Params {
@@ -109,8 +110,9 @@ pub fn evaluate(params: &Params, inputs: &Inputs) -> Outputs {
     let deflection_rad =
         params.deflection_factor * x_rw * force_coefficient / square(advance_ratio);
 
-    let ratio = params.tail_ratio.at(tilt_rad, flow.alpha_rad, flow.speed_mps)
-        * params.sideslip_factor.at(flow.beta_rad.abs(), tilt_rad);
+    let tilt = MastTilt(tilt_rad);
+    let ratio = params.tail_ratio.at(tilt, Alpha(flow.alpha_rad), Airspeed(flow.speed_mps))
+        * params.sideslip_factor.at(Beta(flow.beta_rad.abs()), tilt);
     let (sin_tilt, cos_tilt) = sin_cos(tilt_rad);
     let axis = Vec3::new(sin_tilt, 0.0, -cos_tilt);
     Outputs {

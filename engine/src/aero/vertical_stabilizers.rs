@@ -33,6 +33,7 @@ use crate::frames::{Body, Load, Structural, Vec3};
 use crate::math::{atan2, max, ramp, sin_cos, sqrt, square};
 use crate::motion::Motion;
 use crate::pair::Pair;
+use crate::table::axis::{Airspeed, Alpha, Beta, Mach, MastTilt, RudderAngle};
 use crate::table::{Invalid, Table1, Table2, Table3, all_valid};
 use crate::units::DEGREE_RAD as DEG;
 
@@ -44,24 +45,24 @@ const RUDDER_FULL_RAD: f64 = 15.0 * DEG;
 #[serde(deny_unknown_fields)]
 pub struct Sidewash {
     /// Flaps up.
-    pub flap_0: Table3,
+    pub flap_0: Table3<MastTilt, Alpha, Beta>,
     /// 20/12.5.
-    pub flap_20: Table3,
+    pub flap_20: Table3<MastTilt, Alpha, Beta>,
     /// 40/25.
-    pub flap_40: Table3,
+    pub flap_40: Table3<MastTilt, Alpha, Beta>,
     /// 75/47.
-    pub flap_75: Table3,
+    pub flap_75: Table3<MastTilt, Alpha, Beta>,
 }
 
 impl Sidewash {
     /// By setting, in order.
-    pub fn columns(&self) -> [&Table3; 4] {
+    pub fn columns(&self) -> [&Table3<MastTilt, Alpha, Beta>; 4] {
         [&self.flap_0, &self.flap_20, &self.flap_40, &self.flap_75]
     }
 
     /// The factor.
-    pub fn at(&self, flap: Flap, mast_tilt_rad: f64, alpha_rad: f64, beta_rad: f64) -> f64 {
-        flap.blend(|i| self.columns()[i].at(mast_tilt_rad, alpha_rad, beta_rad))
+    pub fn at(&self, flap: Flap, tilt: MastTilt, alpha: Alpha, beta: Beta) -> f64 {
+        flap.blend(|i| self.columns()[i].at(tilt, alpha, beta))
     }
 
     fn validate(&self) -> Result<(), &'static str> {
@@ -80,13 +81,13 @@ pub struct Params {
     /// Of one fin, from its foot to its tip.
     pub span_m: f64,
     /// CY over β and δr at Mach number .2 and below; odd, printed for negative β.
-    pub side_force: Table2,
+    pub side_force: Table2<Beta, RudderAngle>,
     /// CY above, rudder at 0; odd.
-    pub side_force_by_mach: ByMach,
+    pub side_force_by_mach: ByMach<Beta>,
     /// CD over |β| at Mach number .2 and below.
-    pub drag: Table1,
+    pub drag: Table1<Beta>,
     /// CD above.
-    pub drag_by_mach: ByMach,
+    pub drag_by_mach: ByMach<Beta>,
     /// a, above Mach .2.
     pub lift_slope_per_rad: f64,
     /// τr.
@@ -94,9 +95,9 @@ pub struct Params {
     /// D_Kr.
     pub rudder_loss: f64,
     /// X_Kr over Mach number.
-    pub rudder_by_mach: Table1,
+    pub rudder_by_mach: Table1<Mach>,
     /// K_βR over airspeed and |β|.
-    pub rotor_sidewash: Table2,
+    pub rotor_sidewash: Table2<Airspeed, Beta>,
     /// 1 − ∂σ/∂β.
     pub fuselage_sidewash: Sidewash,
     /// ∂σ/∂p̂.
@@ -146,9 +147,9 @@ impl Params {
     /// CY at Mach number .2 and below.
     pub fn slow_side_force(&self, beta_rad: f64, rudder_rad: f64) -> f64 {
         if beta_rad > 0.0 {
-            -self.side_force.at(-beta_rad, -rudder_rad)
+            -self.side_force.at(Beta(-beta_rad), RudderAngle(-rudder_rad))
         } else {
-            self.side_force.at(beta_rad, rudder_rad)
+            self.side_force.at(Beta(beta_rad), RudderAngle(rudder_rad))
         }
     }
 }
@@ -164,16 +165,16 @@ struct Common {
 
 impl Common {
     fn new(params: &Params, inputs: &Inputs) -> Self {
-        let sideslip = inputs.flow.beta_rad.abs();
+        let sideslip = Beta(inputs.flow.beta_rad.abs());
         let fuselage = params.fuselage_sidewash.at(
             Flap::new(inputs.flap_rad),
-            inputs.mast_tilt_rad,
-            inputs.flow.alpha_rad,
+            MastTilt(inputs.mast_tilt_rad),
+            Alpha(inputs.flow.alpha_rad),
             sideslip,
         );
         Self {
-            factor: params.rotor_sidewash.at(inputs.flow.speed_mps, sideslip) * fuselage,
-            effect: params.rudder_by_mach.at(inputs.mach),
+            factor: params.rotor_sidewash.at(Airspeed(inputs.flow.speed_mps), sideslip) * fuselage,
+            effect: params.rudder_by_mach.at(Mach(inputs.mach)),
         }
     }
 
@@ -240,9 +241,9 @@ fn load(params: &Params, inputs: &Inputs, Common { factor, effect }: Common) -> 
     let loss = max(0.0, inputs.rudder_rad.abs() / RUDDER_FULL_RAD - 1.0);
     let slow_fin = params.slow_side_force(beta, 0.0);
     let slow_rudder = params.slow_side_force(beta, inputs.rudder_rad) - slow_fin;
-    let fin = params.side_force_by_mach.odd_at(inputs.mach, beta, slow_fin);
+    let fin = params.side_force_by_mach.odd_at(inputs.mach, Beta(beta), slow_fin);
     let slow_free = params.slow_side_force(free_rad, 0.0);
-    let free_fin = params.side_force_by_mach.odd_at(inputs.mach, free_rad, slow_free);
+    let free_fin = params.side_force_by_mach.odd_at(inputs.mach, Beta(free_rad), slow_free);
     let fast_rudder = params.lift_slope_per_rad * effect * params.rudder_effect * inputs.rudder_rad;
     let (s, c) = sin_cos(flow_rad);
     let fast = ramp(inputs.mach, 0.2, 0.4) * max(0.0, c);
@@ -252,7 +253,7 @@ fn load(params: &Params, inputs: &Inputs, Common { factor, effect }: Common) -> 
     let rudder_turn_rad =
         (effect - params.rudder_loss * loss) * params.rudder_effect * inputs.rudder_rad;
     let drag_at = |beta_rad: f64| {
-        let angle = (beta_rad + rudder_turn_rad).abs();
+        let angle = Beta((beta_rad + rudder_turn_rad).abs());
         params.drag_by_mach.at(inputs.mach, angle, params.drag.at(angle))
     };
     let drag = drag_at(beta) - kept_off * drag_at(free_rad);

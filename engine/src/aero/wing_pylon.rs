@@ -40,6 +40,7 @@ use super::{in_body_axes, load_at};
 use crate::frames::{Body, Load, Vec3};
 use crate::math::{atan2, clamp, cos, max, ramp, sqrt, square, wrap_angle};
 use crate::pair::Pair;
+use crate::table::axis::{CrossflowAngle, FlapAngle, MastTilt};
 use crate::units::DEGREE_RAD as DEG;
 
 /// Flaperons work fully up to here …
@@ -145,28 +146,26 @@ struct Coefficients {
 
 impl Coefficients {
     fn new(params: &Params, inputs: &Inputs) -> Self {
-        let (tilt, flap_rad) = (inputs.mast.tilt_rad, inputs.flap_rad);
-        let flap = Flap::new(flap_rad);
+        let (tilt_rad, columns) = (inputs.mast.tilt_rad, Flap::new(inputs.flap_rad));
+        let (tilt, flap) = (MastTilt(tilt_rad), FlapAngle(inputs.flap_rad));
         let alpha = wrap_angle(inputs.alpha_rad);
-        let cl = params.lift.lift_at(tilt, flap, inputs.mach, alpha);
+        let cl = params.lift.lift_at(tilt_rad, columns, inputs.mach, alpha);
         let attached = 1.0 - ramp(alpha.abs(), ATTACHED_RAD, SEPARATED_RAD);
-        let by_flaperon = params.rolling_by_flaperon_per_rad
-            * params.flaperon_factor.at(tilt, flap_rad)
-            * attached;
+        let by_flaperon =
+            params.rolling_by_flaperon_per_rad * params.flaperon_factor.at(tilt, flap) * attached;
         Self {
             lift: cl,
-            drag: params.drag.drag_at(tilt, flap, inputs.mach, alpha),
-            pitching: params.pitching_moment.at(tilt, flap_rad),
+            drag: params.drag.drag_at(tilt_rad, columns, inputs.mach, alpha),
+            pitching: params.pitching_moment.at(tilt, flap),
             attached,
-            lift_loss_per_rad: params.lift_loss_by_flaperon_per_rad.at(flap_rad),
-            rolling_by_sideslip_per_rad: params.rolling_by_sideslip_per_rad.at(tilt, flap_rad)
-                + params.rolling_by_sideslip_and_lift_per_rad.at(tilt, flap_rad) * cl,
+            lift_loss_per_rad: params.lift_loss_by_flaperon_per_rad.at(flap),
+            rolling_by_sideslip_per_rad: params.rolling_by_sideslip_per_rad.at(tilt, flap)
+                + params.rolling_by_sideslip_and_lift_per_rad.at(tilt, flap) * cl,
             rolling_by_flaperon_per_rad: by_flaperon,
             yawing_by_yaw_rate: params.yawing_by_yaw_rate_and_lift2 * square(cl)
-                + params.yawing_by_yaw_rate_and_drag * params.drag_at_no_lift.at(tilt, flap_rad),
-            yawing_by_flaperon_per_rad: params.yawing_by_flaperon_per_rad.at(tilt, flap_rad)
-                * attached
-                + params.yawing_by_flaperon_and_lift.at(tilt, flap_rad) * cl * by_flaperon,
+                + params.yawing_by_yaw_rate_and_drag * params.drag_at_no_lift.at(tilt, flap),
+            yawing_by_flaperon_per_rad: params.yawing_by_flaperon_per_rad.at(tilt, flap) * attached
+                + params.yawing_by_flaperon_and_lift.at(tilt, flap) * cl * by_flaperon,
             interference_m2: params.interference_m2.at(tilt),
         }
     }
@@ -277,7 +276,7 @@ fn pylon(params: &Params, inputs: &Inputs, of: &Coefficients, in_wake: InWake) -
     let sideways_mps = inputs.motion.velocity_at(inputs.hub_from_cg_m).y;
     let in_plane_mps = sqrt(square(velocity.x) + square(velocity.z));
     let angle_rad = atan2(sideways_mps.abs(), in_plane_mps);
-    let platform_m2 = params.platform_m2 * params.platform_factor.at(angle_rad);
+    let platform_m2 = params.platform_m2 * params.platform_factor.at(CrossflowAngle(angle_rad));
     let platform = along(velocity, inputs.motion.density_kg_per_m3, platform_m2);
     Load::at(interference + platform, inputs.pivot_m.from_cg(inputs.motion.cg_m))
 }

@@ -30,6 +30,7 @@ use crate::STEP_S;
 use crate::controls::RPM_SELECT_LAST;
 use crate::math::{FRAC_PI_2, clamp, max, min};
 use crate::table::Table1;
+use crate::table::axis::MastTilt;
 
 /// Closer than this to the aeroplane the nacelles count as down.
 const DOWN_RAD: f64 = 0.02;
@@ -43,11 +44,11 @@ pub struct Params {
     /// How fast the reference moves between them.
     pub reference_radps2: f64,
     /// K_P over mast tilt.
-    pub proportional_rad_per_radps: Table1,
+    pub proportional_rad_per_radps: Table1<MastTilt>,
     /// K_I over mast tilt.
-    pub integral_rad_per_rad: Table1,
+    pub integral_rad_per_rad: Table1<MastTilt>,
     /// θ_0 at ¾ radius, with the lever at its bottom, over mast tilt.
-    pub lever_bottom_rad: Table1,
+    pub lever_bottom_rad: Table1<MastTilt>,
     /// Δ: how much more collective the blade takes that θ_0 is counted for.
     pub collective_datum_rad: f64,
     /// θ_Q: pitch of least torque as a helicopter without thrust, at ¾ radius.
@@ -87,7 +88,7 @@ pub struct Inputs {
 impl Params {
     /// θ_0 − Δ: what the linkage allows. The pilot's wheel goes there, beyond what the governor does itself.
     pub fn limit_rad(&self, mast_tilt_rad: f64) -> f64 {
-        self.lever_bottom_rad.at(mast_tilt_rad) - self.collective_datum_rad
+        self.lever_bottom_rad.at(MastTilt(mast_tilt_rad)) - self.collective_datum_rad
     }
 
     /// θ_min.
@@ -97,7 +98,7 @@ impl Params {
 
     /// θ_ff.
     pub fn feed_forward_rad(&self, mast_tilt_rad: f64, from_lever_rad: f64) -> f64 {
-        self.lever_bottom_rad.at(mast_tilt_rad) + from_lever_rad
+        self.lever_bottom_rad.at(MastTilt(mast_tilt_rad)) + from_lever_rad
     }
 }
 
@@ -117,8 +118,9 @@ pub fn update(params: &Params, state: &State, inputs: &Inputs) -> (State, f64) {
         let step_radps = params.reference_radps2 * STEP_S;
         let reference_radps = state.reference_radps
             + clamp(selected_radps - state.reference_radps, -step_radps, step_radps);
-        let proportional = params.proportional_rad_per_radps.at(inputs.mast_tilt_rad);
-        let integral = params.integral_rad_per_rad.at(inputs.mast_tilt_rad);
+        let tilt = MastTilt(inputs.mast_tilt_rad);
+        let proportional = params.proportional_rad_per_radps.at(tilt);
+        let integral = params.integral_rad_per_rad.at(tilt);
         let error_radps = inputs.rotor_speed_radps - reference_radps;
         // Bounding the integral by what the collective can do keeps it from winding up.
         let integral_rad = within(state.integral_rad + integral * error_radps * STEP_S);
@@ -149,13 +151,13 @@ mod tests {
     use super::*;
 
     fn params() -> Params {
-        let flat = |y: f64| Table1 { x: vec![0.0, FRAC_PI_2], y: vec![y; 2] };
+        let flat = |y: f64| Table1::new(vec![0.0, FRAC_PI_2], vec![y; 2]);
         Params {
             rotor_speed_radps: [61.7, 54.1, 48.0],
             reference_radps2: 1.0,
             proportional_rad_per_radps: flat(0.0042),
             integral_rad_per_rad: flat(0.0033),
-            lever_bottom_rad: Table1 { x: vec![0.0, FRAC_PI_2], y: vec![-0.04, 0.37] },
+            lever_bottom_rad: Table1::new(vec![0.0, FRAC_PI_2], vec![-0.04, 0.37]),
             collective_datum_rad: 0.066,
             least_torque_rad: 0.017,
             collective_rad_max: 1.05,

@@ -20,6 +20,7 @@ use super::sensed::Sensed;
 use crate::controls::{Commands, FLAP_DETENT_LAST, PilotControls};
 use crate::math::clamp;
 use crate::pair::Pair;
+use crate::table::axis::{Airspeed, MastTilt};
 use crate::table::{Table1, Table2};
 
 /// Gearing.
@@ -27,17 +28,17 @@ use crate::table::{Table1, Table2};
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// dθ/dXCOL over mast tilt.
-    pub collective_per_lever_rad_per_m: Table1,
+    pub collective_per_lever_rad_per_m: Table1<MastTilt>,
     /// dθ/dXLT over mast tilt.
-    pub collective_per_lateral_stick_rad_per_m: Table1,
+    pub collective_per_lateral_stick_rad_per_m: Table1<MastTilt>,
     /// dB1/dXLN over mast tilt.
-    pub cyclic_per_longitudinal_stick_rad_per_m: Table1,
+    pub cyclic_per_longitudinal_stick_rad_per_m: Table1<MastTilt>,
     /// dB1/dXP over mast tilt and airspeed.
-    pub cyclic_per_pedal_rad_per_m: Table2,
+    pub cyclic_per_pedal_rad_per_m: Table2<MastTilt, Airspeed>,
     /// A1 over airspeed.
-    pub lateral_cyclic_rad: Table1,
+    pub lateral_cyclic_rad: Table1<Airspeed>,
     /// g over mast tilt.
-    pub lateral_cyclic_norm: Table1,
+    pub lateral_cyclic_norm: Table1<MastTilt>,
     /// K_e.
     pub elevator_per_longitudinal_stick_rad_per_m: f64,
     /// K_r.
@@ -52,7 +53,7 @@ pub struct Params {
 
 /// What the lever alone asks of the collective, from the bottom of the lever, rad.
 pub fn lever_collective(params: &Params, mast_tilt_rad: f64, lever_m: f64) -> f64 {
-    params.collective_per_lever_rad_per_m.at(mast_tilt_rad) * lever_m
+    params.collective_per_lever_rad_per_m.at(MastTilt(mast_tilt_rad)) * lever_m
 }
 
 /// All commands.
@@ -64,14 +65,12 @@ pub fn mix(
     sensed: &Sensed,
 ) -> Commands {
     let tilt_rad = sensed.mast_tilt_rad;
+    let (tilt, airspeed) = (MastTilt(tilt_rad), Airspeed(sensed.airspeed_mps));
     let forward_m = -sticks.aft_m;
-    let differential_rad =
-        params.collective_per_lateral_stick_rad_per_m.at(tilt_rad) * sticks.right_m;
-    let cyclic_rad = params.cyclic_per_longitudinal_stick_rad_per_m.at(tilt_rad) * forward_m;
-    let yaw_rad =
-        params.cyclic_per_pedal_rad_per_m.at(tilt_rad, sensed.airspeed_mps) * sticks.pedal_right_m;
-    let lateral_rad =
-        params.lateral_cyclic_norm.at(tilt_rad) * params.lateral_cyclic_rad.at(sensed.airspeed_mps);
+    let differential_rad = params.collective_per_lateral_stick_rad_per_m.at(tilt) * sticks.right_m;
+    let cyclic_rad = params.cyclic_per_longitudinal_stick_rad_per_m.at(tilt) * forward_m;
+    let yaw_rad = params.cyclic_per_pedal_rad_per_m.at(tilt, airspeed) * sticks.pedal_right_m;
+    let lateral_rad = params.lateral_cyclic_norm.at(tilt) * params.lateral_cyclic_rad.at(airspeed);
     let aileron_rad = params.flaperon_per_lateral_stick_rad_per_m * sticks.right_m;
     let detent = pilot.flap_detent.min(FLAP_DETENT_LAST) as usize;
     let locked = sensed.weight_on_wheels

@@ -35,6 +35,7 @@ use super::sensed::Sensed;
 use crate::listing::flags;
 use crate::math::{clamp, cos, max, min, ramp, sin, wrap_angle};
 use crate::table::Table1;
+use crate::table::axis::MastTilt;
 use crate::{GRAVITY_MPS2, STEP_S};
 
 /// No speed that is not the held one takes the nose further than this by itself, up or down. An estimate.
@@ -76,11 +77,11 @@ pub struct PitchTrim {
     /// k_i.
     pub attitude_rate_by_speed_rad_per_m: f64,
     /// A.
-    pub attitude_by_tilt_norm: Table1,
+    pub attitude_by_tilt_norm: Table1<MastTilt>,
     /// B, aft positive.
-    pub stick_by_tilt_m_per_rad: Table1,
+    pub stick_by_tilt_m_per_rad: Table1<MastTilt>,
     /// C.
-    pub speed_by_tilt_mps_per_rad: Table1,
+    pub speed_by_tilt_mps_per_rad: Table1<MastTilt>,
     /// τ_t.
     pub take_over_s: f64,
     /// How fast the trim moves.
@@ -245,12 +246,13 @@ impl Moment<'_> {
         let held_pitch_rad = follow(pitch_rests, state.held_pitch_rad, euler.pitch_rad);
         let (pitch_step_rad, airspeed_step_mps) = if self.trims {
             let trim = &params.pitch_trim;
+            let tilt = MastTilt(sensed.mast_tilt_rad);
             let tilted_rad = STEP_S * holds_speed(state) * sensed.mast_tilt_rate_radps;
             let by_speed_rad =
                 STEP_S * trim.attitude_rate_by_speed_rad_per_m * self.too_fast_mps(state);
             (
-                by_speed_rad + trim.attitude_by_tilt_norm.at(sensed.mast_tilt_rad) * tilted_rad,
-                trim.speed_by_tilt_mps_per_rad.at(sensed.mast_tilt_rad) * tilted_rad,
+                by_speed_rad + trim.attitude_by_tilt_norm.at(tilt) * tilted_rad,
+                trim.speed_by_tilt_mps_per_rad.at(tilt) * tilted_rad,
             )
         } else {
             (0.0, step * (sensed.airspeed_mps - state.held_airspeed_mps))
@@ -339,7 +341,8 @@ impl Moment<'_> {
         let wanted_mps = if sensed.weight_on_wheels {
             -trim_aft_m / take_over_s
         } else if self.trims {
-            let tilting = params.pitch_trim.stick_by_tilt_m_per_rad.at(sensed.mast_tilt_rad);
+            let tilting =
+                params.pitch_trim.stick_by_tilt_m_per_rad.at(MastTilt(sensed.mast_tilt_rad));
             added_aft_m / take_over_s + holds_speed(state) * tilting * sensed.mast_tilt_rate_radps
         } else {
             0.0

@@ -16,6 +16,7 @@ use super::section::{self, REGIONS, Region};
 use crate::lanes::{self, LANES, Lanes};
 use crate::math::{sin_cos, tan};
 use crate::table::Table1;
+use crate::table::axis::RadialStation;
 
 /// Elements along a blade.
 pub const STATIONS: usize = 8;
@@ -41,9 +42,9 @@ pub struct Params {
     /// Where the blade begins, of the radius.
     pub root_norm: f64,
     /// c over the part of the radius.
-    pub blade_chord_m: Table1,
+    pub blade_chord_m: Table1<RadialStation>,
     /// Built-in twist over the part of the radius, relative to ¾ of it.
-    pub twist_rad: Table1,
+    pub twist_rad: Table1<RadialStation>,
     /// Sections.
     pub section: section::Params,
 }
@@ -164,8 +165,8 @@ pub fn blade(
         let width = ends[region] - inner;
         let x = inner + 0.5 * width * (1.0 + at);
         let weight_norm = 0.5 * width * weight;
-        let chord_m = params.blade_chord_m.at(x);
-        let (sin_twist, cos_twist) = sin_cos(params.twist_rad.at(x));
+        let chord_m = params.blade_chord_m.at(RadialStation(x));
+        let (sin_twist, cos_twist) = sin_cos(params.twist_rad.at(RadialStation(x)));
         Station {
             region,
             radius_m: x * radius_m,

@@ -46,6 +46,7 @@ use crate::STEP_S;
 use crate::lanes::{self, LANES, Lanes};
 use crate::math::{PI, clamp, max, min, sqrt, square};
 use crate::table::Table1;
+use crate::table::axis::HubHeight;
 
 /// Apparent mass of the mean.
 const APPARENT_MASS: f64 = 128.0 / (75.0 * PI);
@@ -67,7 +68,7 @@ pub struct Params {
     /// f: more of it in hover over the wing and beside the other rotor.
     pub recirculation: f64,
     /// Download over that far from the ground, over the hub's height in rotor diameters.
-    pub download_near_ground: Table1,
+    pub download_near_ground: Table1<HubHeight>,
 }
 
 /// Velocities in the disc.
@@ -219,7 +220,7 @@ pub fn ground(params: &Params, through: &DiscFlow, height_m: f64, radius_m: f64)
     let near = min(1.0 / max(diameters, 1e-3), DIAMETERS_OVER_HEIGHT_MAX);
     let saved = max(1.0 - 1.0 / (0.9926 + 0.0379 * square(near)), 0.0);
     let axial = through.axial();
-    let wake = sqrt(max(params.download_near_ground.at(diameters), 0.0));
+    let wake = sqrt(max(params.download_near_ground.at(HubHeight(diameters)), 0.0));
     Ground { disc: 1.0 - axial * saved, wake: 1.0 - axial * (1.0 - wake) }
 }
 

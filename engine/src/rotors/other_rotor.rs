@@ -24,6 +24,7 @@ use serde::Deserialize;
 
 use super::elements::Flow;
 use crate::math::{max, sqrt, square};
+use crate::table::axis::AdvanceRatio;
 use crate::table::{Invalid, Table1, all_valid};
 
 /// Rotors that stand still have no advance ratio, and divide by something, m/s at the tip.
@@ -36,9 +37,9 @@ const STILL_MPS: f64 = 1e-6;
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// X_SF over the advance ratio to the side.
-    pub downwind: Table1,
+    pub downwind: Table1<AdvanceRatio>,
     /// X_SS over the advance ratio ahead.
-    pub abreast: Table1,
+    pub abreast: Table1<AdvanceRatio>,
 }
 
 impl Params {
@@ -56,12 +57,12 @@ impl Params {
 /// `spacing_m` the distance of the hubs.
 pub fn factor(params: &Params, flow: &Flow, spacing_m: f64, radius_m: f64) -> f64 {
     let tip_mps = max(flow.omega_radps.abs() * radius_m, TIP_MPS_MIN);
-    let abreast = params.abreast.at(flow.forward_mps.abs() / tip_mps);
+    let abreast = params.abreast.at(AdvanceRatio(flow.forward_mps.abs() / tip_mps));
     if flow.right_mps >= 0.0 {
         return abreast;
     }
     let edgewise_mps = sqrt(square(flow.forward_mps) + square(flow.right_mps)) + STILL_MPS;
     let apart = spacing_m / radius_m * flow.forward_mps.abs() / edgewise_mps;
     let covered = max(0.0, 1.0 - 0.5 * apart);
-    abreast + covered * params.downwind.at(-flow.right_mps / tip_mps)
+    abreast + covered * params.downwind.at(AdvanceRatio(-flow.right_mps / tip_mps))
 }

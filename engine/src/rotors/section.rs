@@ -23,6 +23,7 @@ use serde::Deserialize;
 
 use crate::lanes::{self, Lanes, clamp, max, min, square, whole};
 use crate::math::{self, pow_positive, sqrt};
+use crate::table::axis::{Alpha, RadialStation};
 use crate::table::{Table1, Table2};
 
 /// Angles of a table, at most.
@@ -40,11 +41,11 @@ const MACH2_MAX: f64 = 0.64;
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// cl by the region's outer end and α in equal steps.
-    pub lift_coefficient: Table2,
+    pub lift_coefficient: Table2<RadialStation, Alpha>,
     /// cd, alike.
-    pub drag_coefficient: Table2,
+    pub drag_coefficient: Table2<RadialStation, Alpha>,
     /// t/c over the part of the radius.
-    pub thickness_norm: Table1,
+    pub thickness_norm: Table1<RadialStation>,
     /// M at the tip when the tables hold: M_t is that of the region's middle.
     pub table_tip_mach: f64,
     /// n.
@@ -117,7 +118,7 @@ impl Params {
 
     /// M_cr without lift, at this part of the radius.
     pub fn rise_mach(&self, radius_norm: f64) -> f64 {
-        self.korn_factor - self.thickness_norm.at(radius_norm) - DIVERGENCE
+        self.korn_factor - self.thickness_norm.at(RadialStation(radius_norm)) - DIVERGENCE
     }
 
     /// K − 1 at a chord over radius; the correlation knows none beyond a half.
@@ -280,15 +281,12 @@ mod tests {
         let angles: vec::Vec<f64> = (-3..=6).map(|i| f64::from(2 * i) * DEG).collect();
         let lift = vec![-0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95];
         let drag = vec![0.012, 0.01, 0.008, 0.007, 0.008, 0.01, 0.014, 0.02, 0.03, 0.045];
-        let table = |row: vec::Vec<f64>| Table2 {
-            x: ends.clone(),
-            y: angles.clone(),
-            z: vec![row; REGIONS],
-        };
+        let table =
+            |row: vec::Vec<f64>| Table2::new(ends.clone(), angles.clone(), vec![row; REGIONS]);
         Params {
             lift_coefficient: table(lift),
             drag_coefficient: table(drag),
-            thickness_norm: Table1 { x: vec![0.25, 1.0], y: vec![0.25, 0.08] },
+            thickness_norm: Table1::new(vec![0.25, 1.0], vec![0.25, 0.08]),
             table_tip_mach: 0.0,
             delay_exponent: 1.0,
             korn_factor: 0.87,

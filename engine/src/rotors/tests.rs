@@ -23,20 +23,20 @@ fn ideal() -> Params {
         blade: blade::Params {
             count: 3.0,
             root_norm: 0.0875,
-            blade_chord_m: Table1 { x: vec![0.0, 1.0], y: vec![0.3556; 2] },
-            twist_rad: Table1 { x: vec![0.0, 1.0], y: vec![15.0 * DEG, -5.0 * DEG] },
+            blade_chord_m: Table1::new(vec![0.0, 1.0], vec![0.3556; 2]),
+            twist_rad: Table1::new(vec![0.0, 1.0], vec![15.0 * DEG, -5.0 * DEG]),
             section: section::Params {
-                lift_coefficient: Table2 {
-                    x: ends.clone(),
-                    y: angles.clone(),
-                    z: vec![lift; section::REGIONS],
-                },
-                drag_coefficient: Table2 {
-                    x: ends.clone(),
-                    y: angles,
-                    z: vec![vec![0.0; 10]; section::REGIONS],
-                },
-                thickness_norm: Table1 { x: ends, y: vec![0.1; section::REGIONS] },
+                lift_coefficient: Table2::new(
+                    ends.clone(),
+                    angles.clone(),
+                    vec![lift; section::REGIONS],
+                ),
+                drag_coefficient: Table2::new(
+                    ends.clone(),
+                    angles,
+                    vec![vec![0.0; 10]; section::REGIONS],
+                ),
+                thickness_norm: Table1::new(ends, vec![0.1; section::REGIONS]),
                 table_tip_mach: 0.0,
                 delay_exponent: 0.0,
                 korn_factor: 9.0,
@@ -45,7 +45,7 @@ fn ideal() -> Params {
         inflow: inflow::Params {
             induced_power_factor: 1.0,
             recirculation: 0.0,
-            download_near_ground: Table1 { x: vec![0.5, 3.0], y: vec![0.5, 1.0] },
+            download_near_ground: Table1::new(vec![0.5, 3.0], vec![0.5, 1.0]),
         },
         flapping: flapping::Params {
             blade_inertia_kg_m2: 139.0,
@@ -61,8 +61,8 @@ fn ideal() -> Params {
             shape_norm: [6.0, -4.0, 1.0],
         },
         other_rotor: other_rotor::Params {
-            downwind: Table1 { x: vec![0.0, 0.1, 0.2], y: vec![0.0, 0.8, 0.4] },
-            abreast: Table1 { x: vec![0.0, 0.1, 0.2], y: vec![0.0, -0.05, -0.1] },
+            downwind: Table1::new(vec![0.0, 0.1, 0.2], vec![0.0, 0.8, 0.4]),
+            abreast: Table1::new(vec![0.0, 0.1, 0.2], vec![0.0, -0.05, -0.1]),
         },
     }
 }

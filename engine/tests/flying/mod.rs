@@ -231,18 +231,18 @@ pub fn in_vacuum(xv15: &mut Params) {
     xv15.wing_pylon.spinner_m2 = 0.0;
     xv15.wing_pylon.spinner_across_m2 = 0.0;
     let fuselage = &mut xv15.fuselage;
-    for table in [
-        &mut fuselage.lift_m2,
-        &mut fuselage.drag_m2,
-        &mut fuselage.pitching_m3,
-        &mut fuselage.lift_by_sideslip_m2,
-        &mut fuselage.drag_by_sideslip_m2,
-        &mut fuselage.pitching_by_sideslip_m3,
-        &mut fuselage.side_m2,
-        &mut fuselage.rolling_m3,
-        &mut fuselage.yawing_m3,
+    for values in [
+        &mut fuselage.lift_m2.y,
+        &mut fuselage.drag_m2.y,
+        &mut fuselage.pitching_m3.y,
+        &mut fuselage.lift_by_sideslip_m2.y,
+        &mut fuselage.drag_by_sideslip_m2.y,
+        &mut fuselage.pitching_by_sideslip_m3.y,
+        &mut fuselage.side_m2.y,
+        &mut fuselage.rolling_m3.y,
+        &mut fuselage.yawing_m3.y,
     ] {
-        table.y.fill(0.0);
+        values.fill(0.0);
     }
     fuselage.lift_offset_m2 = 0.0;
     fuselage.drag_offset_m2 = 0.0;

@@ -13,6 +13,7 @@
 mod ahead;
 mod block;
 mod columns;
+mod definitions;
 mod expand;
 mod files;
 mod pack;

@@ -1,24 +1,27 @@
 //! Reading a compacted log as the log it was.
 
-use std::collections::{BTreeMap, VecDeque};
+mod block_records;
+
+use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 use engine::State;
 
-use mcap::records::{Channel as Definition, MessageHeader, Metadata};
+use mcap::records::{MessageHeader, Metadata};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::ahead::{BlockWorkers, Restarts};
 use super::block::{Block, Op};
+use super::definitions::Definitions;
 use super::files::{broken, decode, form_of, refuse_other_form, refuse_other_layout, setup_of};
-use super::regenerator::{FlightModelOf, FlownTick, Regenerator, short_digest};
+use super::regenerator::{FlightModelOf, FlownTick, Regenerator};
 use super::{HEAD, ID, TAIL, TOPIC, VERSION};
-use crate::channels::{Channel, ChannelId, Compacted as How, compacted};
+use crate::channels::Compacted as How;
 use crate::container::checksums::add_message;
-use crate::container::{Compacted, LogFile, Record, RecordSource, Schema, stamped};
-use crate::records::{RESTART, RestartRecord, STATE, StateRecord};
+use crate::container::{Compacted, LogFile, Record, RecordSource, Schema};
+use crate::records::{RESTART, RestartRecord, StateRecord};
 use crate::setup::{Identity, METADATA};
 use crate::{LogError, cdr};
 
@@ -45,12 +48,8 @@ pub(crate) struct Expander {
     tick: u64,
     /// Records that come before anything else is read.
     ready: VecDeque<Record>,
-    /// Channels of the log that was compacted, and of this file.
-    ids: BTreeMap<String, u16>,
-    topics: BTreeMap<u16, String>,
-    /// Message types of the log, and their numbers there by those in this file.
-    schemas: Vec<Schema>,
-    schema_ids: BTreeMap<u16, u16>,
+    /// Channels and message types.
+    definitions: Definitions,
     /// Messages of the chunk so far that stand as they were.
     plain: VecDeque<Message>,
     block: Option<Unpacked>,
@@ -154,11 +153,11 @@ impl Expander {
             Record::ChunkEnd => {}
             Record::Schema(Schema { id: ID, .. }) => {}
             // The log's own definitions come with its files; some of other programs' later.
-            Record::Schema(schema) => return Ok(self.begun && self.is_new_type(schema)),
+            Record::Schema(schema) => return Ok(self.begun && self.definitions.is_new_type(schema)),
             Record::Channel(channel) => {
-                self.topics.insert(channel.id, channel.topic.clone());
+                self.definitions.in_file(channel);
                 let own = channel.topic != TOPIC;
-                return Ok(self.begun && own && self.is_new(channel));
+                return Ok(self.begun && own && self.definitions.is_new(channel));
             }
             Record::Metadata(head) if head.name == HEAD => {
                 self.with_outputs = form_of(head) == VERSION;
@@ -174,13 +173,12 @@ impl Expander {
                 return Ok(true);
             }
             Record::Message(header, data) => {
-                let topic = self.topics.get(&header.channel_id);
-                let topic = topic.ok_or_else(|| broken("a channel is not there"))?;
+                let topic = self.definitions.topic(header.channel_id)?;
                 add_message(&mut self.hash, topic, header, data);
                 if topic == TOPIC {
                     self.unpack(data)?;
                 } else {
-                    let channel_id = self.id(topic)?;
+                    let channel_id = self.definitions.id(topic)?;
                     let header = MessageHeader { channel_id, ..*header };
                     self.plain.push_back((header, std::mem::take(data)));
                 }
@@ -188,41 +186,6 @@ impl Expander {
             _ => return Ok(true),
         }
         Ok(false)
-    }
-
-    /// Whether a message type is not one of the log's yet; from now on it is. A tool that copied this
-    /// file may have given the log's types other numbers.
-    fn is_new_type(&mut self, schema: &mut Schema) -> bool {
-        let in_file = schema.id;
-        let same = |known: &&Schema| {
-            (&known.name, &known.encoding, &known.text)
-                == (&schema.name, &schema.encoding, &schema.text)
-        };
-        // Of two alike, the one with this number.
-        let known = self.schemas.iter().filter(same);
-        let known = known.max_by_key(|known| known.id == in_file).map(|known| known.id);
-        if let Some(known) = known {
-            self.schema_ids.insert(in_file, known);
-            return false;
-        }
-        let taken = |id: &u16| self.schemas.iter().any(|known| known.id == *id);
-        schema.id = (in_file..ID).chain(1..in_file).find(|id| !taken(id)).unwrap_or(in_file);
-        self.schema_ids.insert(in_file, schema.id);
-        self.schemas.push(schema.clone());
-        true
-    }
-
-    /// The same of a channel.
-    fn is_new(&mut self, channel: &mut Definition) -> bool {
-        if self.ids.contains_key(&channel.topic) {
-            return false;
-        }
-        let taken = |id: &u16| self.ids.values().any(|known| known == id);
-        let in_file = channel.id;
-        channel.id = (in_file..ID).chain(1..in_file).find(|id| !taken(id)).unwrap_or(in_file);
-        channel.schema_id = *self.schema_ids.get(&channel.schema_id).unwrap_or(&channel.schema_id);
-        self.ids.insert(channel.topic.clone(), channel.id);
-        true
     }
 
     /// Files, or a block.
@@ -260,9 +223,8 @@ impl Expander {
     /// States among the messages of a block that take the place of flown ones; what cannot be read is found
     /// wrong when its turn comes.
     fn restarts(&self, plain: &VecDeque<Message>) -> Restarts {
-        let id = self.ids.get(RESTART);
         let of = |(number, (header, data)): (usize, &Message)| {
-            let is_one = self.workers.is_some() && Some(&header.channel_id) == id;
+            let is_one = self.workers.is_some() && self.definitions.is(RESTART, header.channel_id);
             let restart = is_one.then(|| cdr::decode::<RestartRecord>(data).ok())??;
             Some((number, restart.state))
         };
@@ -333,13 +295,8 @@ impl Expander {
         }
         for record in head {
             match &record {
-                Record::Schema(schema) => {
-                    self.schema_ids.insert(schema.id, schema.id);
-                    self.schemas.push(schema.clone());
-                }
-                Record::Channel(channel) => {
-                    self.ids.insert(channel.topic.clone(), channel.id);
-                }
+                Record::Schema(schema) => self.definitions.has_type(schema),
+                Record::Channel(channel) => self.definitions.has(channel),
                 _ => {}
             }
             self.ready.push_back(record);
@@ -356,134 +313,6 @@ impl Expander {
         self.keyframe.clear();
         self.keyframe.extend_from_slice(data);
         Ok(())
-    }
-
-    /// The next record of the block; `false` when it has no more.
-    fn next_of_block(&mut self, record: &mut Record) -> Result<bool, LogError> {
-        while let Some(at) = &mut self.block {
-            let Some(op) = at.block.ops.get(at.next).copied() else {
-                self.block = None;
-                break;
-            };
-            at.next += 1;
-            match op {
-                Op::ChunkEnd => *record = Record::ChunkEnd,
-                Op::Plain => self.plain(record)?,
-                Op::Row(number) => self.row(usize::from(number), record)?,
-                Op::State => self.state(record)?,
-                Op::Keyframe => self.end_of_block(record)?,
-                Op::View(number) => {
-                    if !self.view(usize::from(number), record)? {
-                        continue;
-                    }
-                }
-            }
-            return Ok(true);
-        }
-        Ok(false)
-    }
-
-    fn plain(&mut self, record: &mut Record) -> Result<(), LogError> {
-        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
-        let (header, data) = at.plain.pop_front().ok_or_else(|| broken("a message less"))?;
-        if Some(&header.channel_id) == self.ids.get(STATE) {
-            // It is flown on from there.
-            (at.flown, at.ticks) = (None, VecDeque::new());
-            self.stand_at(&data)?;
-            self.states += 1;
-            self.reflown = false;
-        } else if Some(&header.channel_id) == self.ids.get(RESTART)
-            && let Some(regenerator) = &mut self.regenerator
-        {
-            regenerator.takes(ChannelId::Restart, &data)?;
-        }
-        *record = Record::Message(header, data);
-        Ok(())
-    }
-
-    fn row(&mut self, number: usize, record: &mut Record) -> Result<(), LogError> {
-        let channel = numbered(How::Rows, number)?;
-        let id = self.id(channel.topic)?;
-        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
-        let row = at.block.rows[number].row(at.row[number]).ok_or_else(|| broken("a row less"))?;
-        at.row[number] += 1;
-        let data = record.message(stamped(id, row[0]));
-        data.extend_from_slice(&cdr::HEADER);
-        data.extend(row.iter().flat_map(|word| word.to_le_bytes()));
-        self.regenerator.as_mut().map_or(Ok(()), |regenerator| regenerator.takes(channel.id, data))
-    }
-
-    fn state(&mut self, record: &mut Record) -> Result<(), LogError> {
-        let id = self.id(STATE)?;
-        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
-        let digest = at.block.digests.get(at.digest).ok_or_else(|| broken("a digest less"))?;
-        let digest = *digest;
-        at.digest += 1;
-        self.states += 1;
-        self.tick = self.tick.wrapping_add(1);
-        self.reflown = true;
-        self.fly()?;
-        if let Some(regenerator) = &mut self.regenerator {
-            self.tick = regenerator.state.tick;
-            return regenerator.state_message(record.message(stamped(id, self.tick)), digest);
-        }
-        let data = record.message(stamped(id, self.tick));
-        data.extend_from_slice(&self.keyframe);
-        for (place, number) in [(0, digest), (StateRecord::TICK, self.tick)] {
-            let at = cdr::HEADER.len() + 8 * place;
-            let word = data.get_mut(at..at + 8).ok_or_else(|| broken("no keyframe"))?;
-            word.copy_from_slice(&number.to_le_bytes());
-        }
-        Ok(())
-    }
-
-    fn end_of_block(&mut self, record: &mut Record) -> Result<(), LogError> {
-        let keyframe = self.block.as_mut().and_then(|at| at.keyframe.take());
-        let (header, data) = keyframe.ok_or_else(|| broken("a keyframe less"))?;
-        self.fly()?;
-        if let Some(regenerator) = &mut self.regenerator {
-            // The same, or the log does not refly: then what was recorded counts.
-            regenerator.state = cdr::decode::<StateRecord>(&data)?.state;
-        }
-        self.states += 1;
-        self.tick = tick_of(&data)?;
-        self.reflown = false;
-        self.keyframe.clone_from(&data);
-        *record = Record::Message(header, data);
-        Ok(())
-    }
-
-    /// `false` when nothing is flown again, or reading began after that tick.
-    fn view(&mut self, number: usize, record: &mut Record) -> Result<bool, LogError> {
-        let channel = numbered(How::Remade, number)?;
-        let id = self.id(channel.topic)?;
-        let at = self.block.as_mut().ok_or_else(|| broken("no block"))?;
-        let tick = at.block.view_ticks[number].get(at.view[number]).copied();
-        let tick = tick.ok_or_else(|| broken("a tick less"))?;
-        let kept = at.block.outputs.as_ref().filter(|_| channel.id == ChannelId::Outputs);
-        let digest = match kept {
-            Some(digests) => {
-                Some(*digests.get(at.view[number]).ok_or_else(|| broken("a digest less"))?)
-            }
-            None => None,
-        };
-        at.view[number] += 1;
-        let Some(regenerator) = &self.regenerator else { return Ok(false) };
-        let message = record.message(stamped(id, tick));
-        if regenerator.view(message, channel, tick)? {
-            if digest.is_some_and(|digest| digest != short_digest(message)) {
-                self.outputs_differ.get_or_insert(tick);
-            }
-            return Ok(true);
-        }
-        if self.sought && tick <= regenerator.begun_tick {
-            return Ok(false);
-        }
-        Err(broken("viewers' messages of a tick that is long past"))
-    }
-
-    fn id(&self, topic: &str) -> Result<u16, LogError> {
-        self.ids.get(topic).copied().ok_or_else(|| broken("a channel is not there"))
     }
 
     /// What the writer of the compacted log said at its end.
@@ -564,11 +393,6 @@ impl Tail {
         let xxh3 = u128::from_str_radix(get("original_xxh3"), 16);
         Self { messages: get("messages").into(), original: bytes.ok().zip(xxh3.ok()) }
     }
-}
-
-/// The channel of that number among those that are compacted alike.
-fn numbered(how: How, number: usize) -> Result<&'static Channel, LogError> {
-    compacted(how).nth(number).ok_or_else(|| broken("a channel is not there"))
 }
 
 /// The tick of a `/state` message: it follows the digest, whatever else is in the state.

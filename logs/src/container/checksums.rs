@@ -2,7 +2,7 @@
 //!
 //! The chain guards what a flight is reflown from. Who flew, how the ticks kept time, what happened in
 //! words and what viewers draw is not part of it; a tool that copies a log gives every changed byte of
-//! those a right CRC again. A seal is written into the metadata and survives such a copy.
+//! those a right CRC again. A checksum of the metadata is written into them and survives such a copy.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -14,28 +14,28 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::LogError;
 
-/// Key of the seal among the facts of a metadata record.
-const SEAL: &str = "seal";
+/// Key of the checksum among the facts of a metadata record.
+const CHECKSUM: &str = "seal";
 
-/// Adds the seal over all other facts.
+/// Adds the checksum over all other facts.
 pub fn add_checksum(facts: &mut BTreeMap<String, String>) {
-    let seal = metadata_checksum(facts);
-    facts.insert(SEAL.into(), seal);
+    let checksum = metadata_checksum(facts);
+    facts.insert(CHECKSUM.into(), checksum);
 }
 
-/// Whether they claim to be sealed.
+/// Whether they have a checksum.
 pub fn has_checksum(facts: &BTreeMap<String, String>) -> bool {
-    facts.contains_key(SEAL)
+    facts.contains_key(CHECKSUM)
 }
 
-/// Whether the facts are those that were sealed.
+/// Whether the facts are those that the checksum was made of.
 pub fn is_whole(facts: &BTreeMap<String, String>) -> bool {
-    facts.get(SEAL).is_some_and(|seal| *seal == metadata_checksum(facts))
+    facts.get(CHECKSUM).is_some_and(|written| *written == metadata_checksum(facts))
 }
 
 fn metadata_checksum(facts: &BTreeMap<String, String>) -> String {
     let mut hash = Xxh3Default::new();
-    for (key, value) in facts.iter().filter(|(key, _)| *key != SEAL) {
+    for (key, value) in facts.iter().filter(|(key, _)| *key != CHECKSUM) {
         for part in [key, value] {
             hash.update(&(part.len() as u64).to_le_bytes());
             hash.update(part.as_bytes());
@@ -173,10 +173,10 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_added_or_missing_fact_breaks_the_seal() {
+    fn a_changed_added_or_missing_fact_breaks_the_checksum() {
         let mut facts: BTreeMap<_, _> =
             [("commit", "a1"), ("dirty", "no")].map(|(k, v)| (k.into(), v.into())).into();
-        assert!(!is_whole(&facts), "never sealed");
+        assert!(!is_whole(&facts), "no checksum yet");
         add_checksum(&mut facts);
         assert!(is_whole(&facts));
         let mut changed = facts.clone();

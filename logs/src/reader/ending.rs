@@ -37,12 +37,12 @@ pub enum Remade {
 pub(super) struct FooterRecord {
     /// Tick and digest of the last state.
     pub last: (u64, u64),
-    /// Message digest of all messages; `None` without a seal.
+    /// Message digest of all messages; `None` without a checksum of the footer record.
     pub messages: Option<u64>,
 }
 
-/// The log format that knew no seals.
-pub(super) const UNSEALED: &str = "1";
+/// The log format without checksums of metadata and messages.
+pub(super) const WITHOUT_CHECKSUMS: &str = "1";
 
 pub(super) fn footer_record(facts: &BTreeMap<String, String>) -> Option<FooterRecord> {
     let number = |key| facts.get(key).and_then(|text| text.parse().ok());

@@ -7,7 +7,7 @@ use std::path::Path;
 use engine::inputs::DeviceEvent;
 use engine::{Outputs, State};
 
-use super::ending::{Ending, FooterRecord, Remade, UNSEALED, footer_record};
+use super::ending::{Ending, FooterRecord, Remade, WITHOUT_CHECKSUMS, footer_record};
 use super::stream::Stream;
 use crate::channels::{Chain as InChain, Channel, ChannelId};
 use crate::container::checksums::{has_checksum, is_whole};
@@ -156,9 +156,10 @@ impl FlightReader {
             (std::mem::take(&mut record.name), std::mem::take(&mut record.metadata));
         match name.as_str() {
             METADATA if first => {
-                // A flipped bit may make an unsealed format of a sealed one.
-                let sealed = facts.get(Identity::FORMAT).is_none_or(|format| format != UNSEALED);
-                if (sealed || has_checksum(&facts)) && !is_whole(&facts) {
+                // A flipped bit may make of the format another one, without checksums.
+                let checked =
+                    facts.get(Identity::FORMAT).is_none_or(|format| format != WITHOUT_CHECKSUMS);
+                if (checked || has_checksum(&facts)) && !is_whole(&facts) {
                     self.stream
                         .integrity_fault("the metadata that says who flew is not as written");
                 }
@@ -303,14 +304,14 @@ impl FlightReader {
         let Some(closing) = self.closing.filter(|_| ending == Ending::Closed) else {
             return Ok(Ending::Truncated);
         };
-        let sealed = self.identity.get(Identity::FORMAT) != UNSEALED;
-        if closing.last != self.last || sealed && closing.messages.is_none() {
+        let checked = self.identity.get(Identity::FORMAT) != WITHOUT_CHECKSUMS;
+        if closing.last != self.last || checked && closing.messages.is_none() {
             return Ok(Ending::Truncated);
         }
         // When the chain says that the flight is what was flown, it is something beside it. What a
         // compacted log says is guarded by a hash of its own, and what it does not say is made again.
         let all_read = self.unbroken && !self.stream.sought && !self.is_compacted();
-        if sealed && all_read && !self.stream.message_digests.are(closing.messages) {
+        if checked && all_read && !self.stream.message_digests.are(closing.messages) {
             return Ok(Ending::Damaged(
                 "a message beside the flight itself (timing, events, viewers' channels, what any is \
                  called, its order or time) is not as written, though every checksum is right: a tool that \

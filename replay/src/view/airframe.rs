@@ -12,6 +12,7 @@ use engine::frames::{Structural, Vec3};
 use engine::math::{TAU, cos, sin, tan};
 use engine::pair::Pair;
 use engine::struts::Struts;
+use engine::table::axis::RadialStation;
 use rerun::Mesh3D;
 use rerun::components::AlbedoFactor;
 
@@ -288,7 +289,7 @@ const PAINTED_NORM: f32 = 0.903;
 pub fn blades(aircraft: &Aircraft) -> Solid {
     let rotors = &aircraft.rotors;
     let radius = rotors.radius_m as f32;
-    let half = 0.5 * rotors.blade.blade_chord_m.at(1.0) as f32;
+    let half = 0.5 * rotors.blade.blade_chord_m.at(RadialStation(1.0)) as f32;
     let mut solid = Solid::default();
     for blade in 0..rotors.blade.count as u8 {
         let azimuth_rad = TAU * f64::from(blade) / rotors.blade.count;

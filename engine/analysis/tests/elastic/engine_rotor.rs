@@ -1,8 +1,14 @@
 //! The rotor that flies, tick by tick, beside the full form taken in ticks of the same rule.
 
-use engine::rotors::flapping::Moment;
+use engine::STEP_S;
+use engine::frames::{Body, Vec3};
+use engine::rotors::elements::BladeLoads;
+use engine::rotors::flapping::{Damping, Moment};
+use engine::rotors::{self, flapping, inflow};
+use nalgebra::DMatrix;
 
-use super::*;
+use super::answers::{Steady, respond};
+use super::{INPUTS, Input, OUTPUTS, Output, Rotor};
 
 /// Numbers of a rotor's state.
 const SIZE: usize = 13;

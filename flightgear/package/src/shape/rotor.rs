@@ -7,6 +7,7 @@
 
 use engine::aircraft::Params as Aircraft;
 use engine::math::{TAU, cos, max, sin, tan};
+use engine::table::axis::RadialStation;
 
 use super::{SIDES, front, nacelle, steps};
 use crate::ac3d::{Part, material};
@@ -54,9 +55,10 @@ fn blade(aircraft: &Aircraft, azimuth_rad: f64) -> Mesh {
         .into_iter()
         .map(|part| {
             let out = part * rotors.radius_m;
-            let chord = rotors.blade.blade_chord_m.at(part);
-            let pitch = twist.at(part) - twist.at(REFERENCE_NORM);
-            let ratio = max(thickness.at(part), 0.07);
+            let station = RadialStation(part);
+            let chord = rotors.blade.blade_chord_m.at(station);
+            let pitch = twist.at(station) - twist.at(RadialStation(REFERENCE_NORM));
+            let ratio = max(thickness.at(station), 0.07);
             let section = front(ratio, 1.0).into_iter().step_by(2);
             section
                 .map(|[along, off]| {
