@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use logs::records::TIMING_FACTS;
 
-/// The kinds of durations in a log, and what they are.
-pub const KINDS: [(&str, &str); 5] = [
-    ("late_ns", "from when a tick was due until it ran"),
-    ("step_ns", "the flight model"),
-    ("sent_ns", "from when a tick was due to the picture"),
-    ("latency_ns", "from the kernel's time of an input to the picture"),
-    ("record_ns", "to the log's writer"),
+/// The kinds of durations: their key in a log, their name, and from when to when they are.
+pub const KINDS: [(&str, &str, &str); 5] = [
+    ("late_ns", "late", "from when a tick was due until it ran"),
+    ("step_ns", "step", "the flight model"),
+    ("sent_ns", "to picture", "from when a tick was due to the picture"),
+    ("latency_ns", "input to picture", "from the kernel's time of an input to the picture"),
+    ("record_ns", "hand-over", "to the log's writer"),
 ];
 
 /// Whether these facts are how a flight kept time.
@@ -20,9 +20,8 @@ pub fn is_timing(name: &str) -> bool {
 
 /// Says how the flight kept time: counts, and percentiles of the histograms.
 pub fn say(facts: &BTreeMap<String, String>) {
-    for (key, what) in KINDS {
+    for (key, name, what) in KINDS {
         let Some(steps) = facts.get(key).and_then(|text| steps(text)) else { continue };
-        let name = key.trim_end_matches("_ns");
         if let Some([p50, p99, p999, max]) = percentiles(&steps) {
             say!(
                 "  {name:<16} p50 {p50:.3} ms, p99 {p99:.3}, p99.9 {p999:.3}, max {max:.3} ms: {what}"

@@ -389,7 +389,9 @@ impl Facts {
                 let what = if self.reflown { "exact" } else { "read, not reflown" };
                 let why = match &self.end {
                     End::Recovered(_) => "the log was recovered from a broken one",
-                    _ => "the flight was killed or the file was cut",
+                    _ => {
+                        "the flight was killed or the file was cut; `tiltrotor log recover` makes a whole log of it"
+                    }
                 };
                 format!("never closed: {all}{from} {what}; {why}")
             }

@@ -18,7 +18,7 @@ pub struct Args {
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// As CSV below this folder
-    #[arg(long, value_name = "DIR", required_unless_present = "parquet")]
+    #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
     /// As Parquet below this folder
     #[arg(long, value_name = "DIR")]
@@ -47,6 +47,9 @@ fn forms(args: &Args) -> Result<Vec<(&Path, Form)>> {
     #[cfg(not(feature = "parquet"))]
     if args.parquet.is_some() {
         bail!("this program was built without `parquet`; build it with `--features parquet`");
+    }
+    if forms.is_empty() {
+        bail!("as what? give --csv DIR, --parquet DIR or both");
     }
     for (folder, _) in &forms {
         if folder.exists() && !folder.is_dir() {

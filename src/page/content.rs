@@ -257,7 +257,7 @@ fn real_time(html: &mut Html, flown: &Afterwards, compact: bool) {
     html.element("p", &counts);
     let mut rows = Vec::new();
     let mut pictures = Vec::new();
-    for (key, what) in timing::KINDS {
+    for (key, _, what) in timing::KINDS {
         let Some(steps) = facts.get(key).and_then(|text| timing::steps(text)) else { continue };
         let Some(percentiles) = timing::percentiles(&steps) else { continue };
         let mut row = vec![what.to_string()];

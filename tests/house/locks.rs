@@ -7,7 +7,7 @@ use std::fs;
 
 use toml::Table;
 
-use crate::tree::{self, manifest, root};
+use crate::tree::{manifest, root};
 
 /// Folders with a workspace and a lock file of their own.
 const OTHERS: &[&str] = &["fmi", "python"];
