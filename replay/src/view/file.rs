@@ -168,4 +168,28 @@ mod tests {
         assert!(matches!(file.close(), Err(EncodeError::Write(_))));
         assert!(file.close().is_ok());
     }
+
+    /// Without an index it ends with what says so: a viewer waits for more of a file that does not.
+    #[test]
+    fn a_long_recording_has_no_index_and_an_end() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (stream, storage) =
+            rerun::RecordingStreamBuilder::new("long").memory().expect("a stream");
+        stream.log_static("word", &rerun::TextLog::new("one")).expect("logged");
+        let messages = storage.take();
+        let chunk = messages.iter().find(|message| matches!(message, LogMsg::ArrowMsg(..)));
+        let chunk = chunk.expect("a chunk");
+        let written = |chunks: usize| {
+            let path = folder.path().join(format!("{chunks}.rrd"));
+            let file = RrdFile::new(File::create(&path).expect("a file")).expect("a recording");
+            (0..chunks).for_each(|_| file.send(chunk.clone()));
+            file.close().expect("room");
+            std::fs::read(path).expect("a file")
+        };
+        // What says where an index is.
+        let has_index = |bytes: &[u8]| bytes[bytes.len() - 64..].windows(4).any(|of| of == b"FOOT");
+        let (few, many) = (written(INDEXED_MAX), written(INDEXED_MAX + 1));
+        assert!(has_index(&few) && !has_index(&many));
+        assert!(many.ends_with(&[0; MessageHeader::ENCODED_SIZE_BYTES]));
+    }
 }

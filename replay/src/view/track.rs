@@ -476,14 +476,13 @@ mod tests {
     }
 
     #[test]
-    fn chunks_and_rows_in_memory_grow_with_the_root_of_the_flight() {
-        const HOUR: usize = 180_000;
-        let (short, _) = chunks(HOUR / 4);
-        let (long, longest) = chunks(HOUR);
-        // Four times as long, twice as much; ten seconds each would be 360.
-        assert!(long <= 2 * short + 8 && long < 100, "{short}, {long}");
-        assert!(longest < 4300, "{longest}");
+    fn rows_in_memory_grow_with_the_root_of_the_flight_up_to_half_a_minute() {
         // The first ones are short.
         assert_eq!(chunks(1500), (3, 500));
+        // Ten minutes, an hour, a day.
+        assert_eq!(chunks(30_000).1, 1500);
+        let (hour, longest) = chunks(180_000);
+        assert!(longest == 1500 && hour < 130, "{longest}, {hour}");
+        assert_eq!(chunks(24 * 180_000).1, 1500);
     }
 }
