@@ -6,7 +6,6 @@ use engine::outputs::{Severity, Validity};
 use engine::{Outputs, STEP_NS, STEP_S};
 use logs::devices::DeviceIdentity;
 use logs::records::TimingRecord;
-use logs::text::at;
 
 use super::canvas::{About, Canvas};
 use super::look::Look;
@@ -50,12 +49,13 @@ impl Ending {
 
     /// In bold.
     fn told(&self) -> String {
-        let told = format!("{} at {}: {}", self.name(), at(self.tick), self.words);
+        let words = self.words();
         match self.until {
             Some(tick) => {
-                format!("**{told}. Nothing until the restart at {} means anything.**", at(tick))
+                let at_s = tick as f64 * STEP_S;
+                format!("**{words}. Nothing until the restart at {at_s:.2} s means anything.**")
             }
-            None => format!("**{told}. Nothing after it means anything.**"),
+            None => format!("**{words}. Nothing after it means anything.**"),
         }
     }
 }
@@ -147,7 +147,7 @@ impl Facts {
             .map(|device| device.name.as_str())
             .collect();
         self.hands = if mapped.is_empty() {
-            "by a pilot model, a script or the keyboard".into()
+            "by a pilot model, script or keyboard".into()
         } else {
             format!("by hand, with {}", mapped.join(", "))
         };
@@ -203,8 +203,8 @@ impl Facts {
         let first = [Some(when), length, self.pace.words()];
         let first: Vec<String> =
             first.into_iter().flatten().filter(|words| !words.is_empty()).collect();
-        lines.push(first.join(" · "));
         lines.extend((!self.verdict.is_empty()).then(|| self.verdict.clone()));
+        lines.push(first.join(" · "));
         lines
     }
 }
@@ -282,7 +282,7 @@ mod tests {
         facts.judge("exact: all 500 ticks");
         let stick = |mapped| DeviceIdentity { mapped, name: "X_52".into(), ..Default::default() };
         facts.flown_with(&[stick(0)]);
-        assert!(alone(&about(), &facts).contains("UTC by a pilot model, a script or"));
+        assert!(alone(&about(), &facts).contains("UTC by a pilot model, script or"));
         facts.flown_with(&[stick(0), stick(1)]);
         assert!(alone(&about(), &facts).contains("UTC by hand, with X\\_52 ·"));
         let page = alone(&about(), &facts);
@@ -309,8 +309,7 @@ mod tests {
         assert!(!facts.add(&wreck(251, Validity::HULL)));
         facts.add(&Outputs { tick: 300, ..Outputs::default() });
         let page = alone(&about(), &facts);
-        let told =
-            "**CRASH at tick 250 (1.000 s): hull on the ground. Nothing after it means anything.**";
+        let told = "**CRASH at 1.00 s: hull on the ground. Nothing after it means anything.**";
         assert!(page.contains(told), "{page}");
         assert_eq!(
             facts.over().map(Ending::words).as_deref(),
@@ -327,17 +326,17 @@ mod tests {
         // Seen late, of before the restart.
         assert!(!facts.add(&wreck(500, Validity::HULL)));
         let page = alone(&about(), &facts);
-        assert!(page.contains("Nothing until the restart at tick 500 (2.000 s) means"), "{page}");
+        assert!(page.contains("Nothing until the restart at 2.00 s means"), "{page}");
         assert!(!page.contains("Nothing after it"), "{page}");
         // One that was not over.
         assert!(!facts.restart(600));
         assert!(facts.add(&wreck(750, Validity::HULL)));
         let page = alone(&about(), &facts);
-        assert!(page.contains("tick 250") && page.contains("Nothing after it means"), "{page}");
+        assert!(page.contains("at 1.00 s") && page.contains("Nothing after it means"), "{page}");
         facts.restart(800);
         facts.add(&wreck(900, Validity::HULL));
         let page = alone(&about(), &facts);
-        assert!(page.contains("1 more before") && !page.contains("tick 250"), "{page}");
+        assert!(page.contains("1 more before") && !page.contains("at 1.00 s"), "{page}");
     }
 
     #[test]
@@ -345,7 +344,7 @@ mod tests {
         let mut facts = facts();
         facts.add(&wreck(250, Validity::FROZEN));
         let page = alone(&about(), &facts);
-        assert!(page.contains("**FROZEN at tick 250") && !page.contains("CRASH"), "{page}");
+        assert!(page.contains("**FROZEN at 1.00 s") && !page.contains("CRASH"), "{page}");
         assert!(facts.endings()[0].label().starts_with("FROZEN at 1.00 s"));
     }
 }

@@ -109,18 +109,13 @@ impl StartMark {
         let outline = rim.iter().map(|[ahead_m, right_m]| self.place(*ahead_m, *right_m)).collect();
         let lines = std::iter::once(outline).chain(steps().map(across));
         let heading_deg = degrees(self.heading_rad).rem_euclid(360.0);
-        let labels = [
-            (self.place(0.0, side), format!("start, heading {heading_deg:03.0}\u{b0}")),
-            (self.place(far, side), format!("{far:.0} m from the start")),
-        ];
-        let (at, words): (Vec<Point>, Vec<String>) = labels.into_iter().unzip();
         let lines = LineStrips3D::new(lines.collect::<Vec<Vec<Point>>>())
             .with_radii([0.2])
             .with_colors([PAINT]);
-        let labels = Points3D::new(at)
+        let labels = Points3D::new([self.place(0.0, side)])
             .with_radii([Radius::new_ui_points(2.0)])
             .with_colors([PAINT])
-            .with_labels(words)
+            .with_labels([format!("start, heading {heading_deg:03.0}\u{b0}")])
             .with_show_labels(true);
         (lines, labels)
     }
