@@ -204,7 +204,7 @@ fn lane(
     let mark = ((seen as f64 * MARK_NORM) as u64).max(1);
     let mut changes: Vec<(u64, String)> = Vec::new();
     for (number, (tick, _, words)) in all.iter().enumerate() {
-        if number > 0 && all[number - 1].0 == *tick {
+        if number > 0 && all[number - 1].0 == *tick || over.iter().any(|over| over.covers(*tick)) {
             continue;
         }
         let next = all[number + 1..].iter().map(|(next, ..)| *next).find(|next| next > tick);
