@@ -233,12 +233,11 @@ pub fn send_two(canvas: &mut Canvas, flights: [(&Look, &Facts); 2]) {
         let flown = canvas.about.flown.get(of).map_or("", String::as_str);
         let name = escaped(look.name.trim_end_matches(": "));
         let when = [escaped(flown), escaped(&facts.hands)].join(" ").trim().to_string();
-        let told = [escaped(&facts.aircraft), when].into_iter();
-        let told: Vec<String> = told
-            .chain(facts.told_endings())
-            .chain([facts.verdict.clone()])
-            .filter(|words| !words.is_empty())
-            .collect();
+        // There is little room: of the verdict what it says of the whole.
+        let verdict = facts.verdict.split(", ").next().unwrap_or_default().to_string();
+        let told = [escaped(&facts.aircraft)].into_iter().chain(facts.told_endings());
+        let told: Vec<String> =
+            told.chain([verdict, when]).filter(|words| !words.is_empty()).collect();
         lines.push(format!("**{name}** ({}): {}", LINES[of], told.join(" · ")));
     }
     let name = format!("**{}**", escaped(&canvas.about.title));
