@@ -70,7 +70,7 @@ picture() {
     "$viewing" view "$@" --viewer "$work/viewer" --force
     read -r process port <"$work/listens"
     # What was loaded is drawn by then.
-    sleep "${SETTLES:-40}"
+    sleep "${SETTLES:-60}"
     timeout 120 target/rerun-0.36.3/bin/python tests/viewer_picture.py "$port" "$work/$name.png"
     kill "$process"
     as_jpeg "$work/$name.png" "$name"
