@@ -7,7 +7,10 @@ use engine::{Outputs, STEP_NS, STEP_S};
 use logs::devices::DeviceIdentity;
 use logs::records::TimingRecord;
 
+use rerun::{Points3D, Radius, RecordingStream, RecordingStreamResult};
+
 use super::canvas::{About, Canvas};
+use super::columns::point;
 use super::look::Look;
 use super::parts::HEADING;
 
@@ -207,6 +210,23 @@ impl Facts {
         lines.push(first.join(" · "));
         lines
     }
+}
+
+/// Marks where it ended before its end, each time.
+pub fn send_endings(
+    recording: &RecordingStream,
+    look: &Look,
+    endings: &[Ending],
+) -> RecordingStreamResult<()> {
+    let labels = endings.iter().map(|ending| format!("{}{}", look.name, ending.label()));
+    recording.log_static(
+        look.entity("world/crash"),
+        &Points3D::new(endings.iter().map(|ending| point(ending.position_m)))
+            .with_radii([Radius::new_ui_points(7.0)])
+            .with_colors([0xFF_20_20_FF])
+            .with_labels(labels)
+            .with_show_labels(true),
+    )
 }
 
 /// Writes what is known of the only flight.

@@ -2,15 +2,14 @@
 
 use engine::aircraft::Params as Aircraft;
 use rerun::{
-    GeoLineStrings, GeoPoints, LineStrips3D, Points3D, Radius, RecordingStream,
-    RecordingStreamResult, StateConfiguration, ViewCoordinates,
+    GeoLineStrings, GeoPoints, LineStrips3D, Radius, RecordingStream, RecordingStreamResult,
+    StateConfiguration, ViewCoordinates,
 };
 
 use super::airframe;
 use super::basics::SIDES;
 use super::columns::point;
 use super::forces::{self, ARROWS};
-use super::heading::Ending;
 use super::look::Look;
 use super::modes::MODES;
 use super::plots::{GRAPHS, Graph, TIMES};
@@ -123,23 +122,6 @@ fn send_aircraft(
         recording.log_static(rotor.as_str(), &tinted(airframe::blades(aircraft)))?;
     }
     Ok(())
-}
-
-/// Marks where it ended before its end, each time.
-pub fn send_endings(
-    recording: &RecordingStream,
-    look: &Look,
-    endings: &[Ending],
-) -> RecordingStreamResult<()> {
-    let labels = endings.iter().map(|ending| format!("{}{}", look.name, ending.label()));
-    recording.log_static(
-        look.entity("world/crash"),
-        &Points3D::new(endings.iter().map(|ending| point(ending.position_m)))
-            .with_radii([Radius::new_ui_points(7.0)])
-            .with_colors([0xFF_20_20_FF])
-            .with_labels(labels)
-            .with_show_labels(true),
-    )
 }
 
 /// Sends what is known only at the end: the whole path, a strip for each stretch of a configuration.

@@ -27,7 +27,7 @@ use super::plots::{GRAPHS, Graph, TIMES};
 use super::raw::Raw;
 use super::scene::{PathPoint, send_moving};
 use super::scenery::StartMark;
-use super::still::{send_endings, send_path};
+use super::still::send_path;
 use crate::judgement::Judgement;
 
 /// Rows gathered before they are written, at first: ten seconds, about a megabyte.
@@ -206,7 +206,7 @@ impl Track {
 
     /// In space, and above the flight.
     fn mark_endings(&self, canvas: &mut Canvas) {
-        let sent = send_endings(&canvas.recording, &self.look, self.facts.endings());
+        let sent = heading::send_endings(&canvas.recording, &self.look, self.facts.endings());
         canvas.keep(sent);
         heading::send(canvas, &self.look, &self.facts);
     }
