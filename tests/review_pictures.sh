@@ -70,7 +70,7 @@ picture() {
     "$viewing" view "$@" --viewer "$work/viewer" --force
     read -r process port <"$work/listens"
     # What was loaded is drawn by then.
-    sleep "${SETTLES:-40}"
+    sleep "${SETTLES:-60}"
     timeout 120 target/rerun-0.36.3/bin/python tests/viewer_picture.py "$port" "$work/$name.png"
     kill "$process"
     as_jpeg "$work/$name.png" "$name"
@@ -78,9 +78,27 @@ picture() {
 picture pilot "$work/demo.mcap" --at 50
 picture engineer "$work/demo.mcap" --layout engineer --at 110
 picture rotor "$work/demo.mcap" --layout rotor --at 30
-picture latency "$work/demo.mcap" --layout latency --at 90
+# How it kept time is of a flight that waited for the clock.
+"$viewing" fly --pilot takeoff --no-flightgear --no-panel --duration 60 --out "$work/timed.mcap"
+picture latency "$work/timed.mcap" --layout latency --at 30
 picture compare "$work/calm.mcap" --against "$work/weaker.mcap" --at 23
 picture crash "$work/crash.mcap" --at 6.6
+# While it is flown: what is seen of the stream after a while, at its end.
+port=$(python3 -c 'import socket
+s = socket.socket()
+s.bind(("127.0.0.1", 0))
+print(s.getsockname()[1])')
+RERUN_ANALYTICS=0 "$viewer" --headless --window-size 1400x900 --bind 127.0.0.1 --port "$port" >/dev/null 2>&1 &
+process=$!
+sleep 5
+"$viewing" fly --pilot takeoff --no-flightgear --no-panel --duration 60 --rerun "127.0.0.1:$port" \
+    --out "$work/live.mcap" &
+flying=$!
+sleep 50
+timeout 120 target/rerun-0.36.3/bin/python tests/viewer_picture.py "$port" "$work/live.png"
+wait "$flying"
+kill "$process"
+as_jpeg "$work/live.png" live
 # A log that diverges, as tests/command/view.rs leaves it: the aircraft in it is not the one that was flown.
 diverged=(target/tmp/view-diverged/parted/*.rrd)
 if [ -s "${diverged[0]}" ]; then

@@ -4,6 +4,7 @@
 //! /world                    NED, origin on the ground at the start; x north, y east, z down
 //!   ground, grid            a plane and its lines that stay under the aircraft, in whole steps
 //!   pad                     where the origin is
+//!   start                   where the flight began, and along which heading
 //!   chase                   where the aircraft is, turned with its heading: the eye's frame
 //!   path                    the whole flight by configuration, with a post to the ground now and then
 //!   flown                   the last half minute, by configuration
@@ -49,6 +50,7 @@ mod fields;
 mod file;
 mod forces;
 mod heading;
+mod lanes;
 mod largest;
 mod layout;
 mod link;
@@ -72,6 +74,7 @@ mod surfaces;
 mod track;
 
 use engine::aircraft::Params as Aircraft;
+use logs::devices::DeviceIdentity;
 use logs::output::Output;
 use logs::records::TimingRecord;
 
@@ -96,8 +99,9 @@ use crate::judgement::Judgement;
 /// Rows do not gather: those of a chunk and a path that is thinned are in memory, and rerun's index of the file,
 /// which is written at its end. That has a value in each of its columns, one for every component on every
 /// timeline, for every chunk (`RrdManifestBuilder`, 0.36.3): some kilobytes a chunk, .04 MB for a second of flight
-/// were chunks ten seconds long. So they grow with the root of the flight. The first error is kept and told by [`finish`](Self::finish), so that drawing
-/// never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
+/// were chunks ten seconds long. So they grow with the root of the flight up to half a minute, and a file of more
+/// chunks than there is room for has no index: it is read whole, as those of older versions are. The first error
+/// is kept and told by [`finish`](Self::finish), so that drawing never stops a flight. Dropped without `finish`, the file is readable but lacks its last rows and
 /// the whole path.
 pub struct FlightView {
     saved: Saved,
@@ -122,7 +126,7 @@ impl FlightView {
         let drawn = [(&look, aircraft)];
         let mut canvas = Canvas::begin(Box::new(saved.file.clone()), about, plan, &drawn)
             .map_err(|error| saved.refused(error))?;
-        let track = Track::new(look, aircraft, layout.fields());
+        let mut track = Track::new(look, aircraft, layout.fields());
         track.begin(&mut canvas);
         Ok(Self { saved, canvas, track, told: 0 })
     }
@@ -137,6 +141,11 @@ impl FlightView {
         self.track.time(&mut self.canvas, timing);
     }
 
+    /// Another state took the place of the one at a tick, from which the next one is flown.
+    pub fn restart(&mut self, tick: u64) {
+        self.track.restart(&mut self.canvas, tick);
+    }
+
     /// Notes the next event of the log.
     pub fn event(&mut self, tick: u64, level: Severity, text: &str) {
         self.told += 1;
@@ -147,6 +156,11 @@ impl FlightView {
     /// Notes what the log is, which begins at that tick.
     pub fn judge(&mut self, tick: u64, judgement: &Judgement) {
         self.track.judge(&mut self.canvas, tick, judgement);
+    }
+
+    /// Notes the input devices of the log.
+    pub fn flown_with(&mut self, devices: &[DeviceIdentity]) {
+        self.track.facts.flown_with(devices);
     }
 
     /// Writes what is left and closes the file; its size in bytes.

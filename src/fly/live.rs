@@ -70,8 +70,10 @@ mod with {
 
     use anyhow::{Context, Result, bail};
     use engine::Aircraft;
+    use engine::outputs::Validity;
+    use logs::records::FlightEvent;
     use recorder::{Flight, Progress, Told};
-    use replay::view::live::{LiveView, Tally};
+    use replay::view::live::{LiveView, Pace, Tally};
     use replay::view::{About, Layout, Moment, level};
 
     use super::LiveArgs;
@@ -156,13 +158,17 @@ mod with {
         fn show(self, progress: &Progress, over: &AtomicBool) -> String {
             recorder::step_aside();
             let mut view = LiveView::new(&self.place, self.about, self.layout, &self.aircraft);
-            let mut shown_tick = None;
+            let (mut shown_tick, mut met) = (None, Validity::empty());
+            let mut pace = Pace::default();
             // After the end once more, for the last of it.
             let mut last = false;
             while !last {
                 last = over.load(Ordering::Acquire);
                 view.look();
                 for told in self.told.try_iter() {
+                    if told.what == FlightEvent::Restarted {
+                        view.restart(told.tick);
+                    }
                     view.event(told.tick, level(told.level), &told.words);
                 }
                 let shown = progress.shown().filter(|shown| {
@@ -170,8 +176,19 @@ mod with {
                 });
                 if let Some(shown) = shown {
                     shown_tick = Some(shown.outputs.tick);
-                    let (outputs, world) = (&shown.outputs, &shown.world);
-                    view.push(Moment { outputs, world, events: &[] }, &shown.timing);
+                    let (mut outputs, world) = (shown.outputs, &shown.world);
+                    // What was so between two looks is not missed: the hull may touch the ground for a tick.
+                    outputs.validity |= shown.debrief.validity & !met;
+                    met = shown.debrief.validity;
+                    if shown.late_ns_max > pace.latest.1 {
+                        pace.latest = (shown.timing.tick, shown.late_ns_max);
+                    }
+                    (pace.ticks, pace.overruns) = (outputs.tick, shown.overruns);
+                    view.push(
+                        Moment { outputs: &outputs, world, events: &[] },
+                        &shown.timing,
+                        pace,
+                    );
                 }
                 if !last {
                     thread::sleep(LOOK);

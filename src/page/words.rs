@@ -24,17 +24,30 @@ pub fn summary(flown: &Afterwards) -> Vec<String> {
     sentences
 }
 
-/// What ended the flight before its end, if anything did: the hull on the ground, or numbers that are none.
+/// What ended the flight before its end, if anything did: the hull on the ground, or numbers that are none. Of
+/// several the one after which nothing was restarted, if there is one.
 pub fn crash(flown: &Afterwards) -> Option<String> {
     let met = flown.debrief.validity.told().find(|facts| facts.severity == Severity::Final)?;
-    let event = flown.flight.happened.iter().find(|event| {
+    let happened = &flown.flight.happened;
+    let restart = |tick: u64| {
+        happened
+            .iter()
+            .find(|event| event.what == Some(FlightEvent::Restarted) && event.tick >= tick)
+    };
+    let is_end = |event: &&Happened| {
         event.what == Some(FlightEvent::Impact) && event.level == Level::Error
             || event.words.contains(met.words)
-    });
+    };
+    let last = happened.iter().find(|event| is_end(event) && restart(event.tick).is_none());
+    let event = last.or_else(|| happened.iter().find(is_end));
     let when =
         event.map_or_else(String::new, |event| format!(" at {}: {}", s(event.tick), event.words));
     let what = if met.flag == Validity::HULL { "CRASH" } else { "FROZEN" };
-    Some(format!("{what}, {}{when}. Nothing after it means anything.", met.words))
+    let after = match event.and_then(|event| restart(event.tick)) {
+        Some(restart) => format!("until the restart at {}", s(restart.tick)),
+        None => "after it".into(),
+    };
+    Some(format!("{what}, {}{when}. Nothing {after} means anything.", met.words))
 }
 
 fn what_was_flown(flown: &Afterwards) -> String {

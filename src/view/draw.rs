@@ -94,6 +94,9 @@ pub fn one(log: &Path, saved: &Output, drawing: &Drawing) -> Result<(u64, Mark)>
             Ok(Some(reflown)) => {
                 let (recorded, outputs) = (reflown.recorded, reflown.outputs);
                 let world = &recorded.inputs.world;
+                if let Some(restart) = &recorded.restart {
+                    view.restart(restart.state.tick);
+                }
                 view.push(Moment { outputs, world, events: &recorded.events });
                 if !reflown.exact {
                     first_difference.get_or_insert(outputs.tick);
@@ -109,6 +112,7 @@ pub fn one(log: &Path, saved: &Output, drawing: &Drawing) -> Result<(u64, Mark)>
     facts.end_of_reflight(&mut flight, disorder, &drawing.window);
     let judgement = facts.judge();
     view.judge(start_tick, &judgement);
+    view.flown_with(&flight.reader.devices);
     say!("{}: {judgement}", log.display());
     for remark in &flight.reader.log_lines {
         view.event(remark.time_ns / STEP_NS, level(remark.level), &remark.words);

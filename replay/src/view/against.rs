@@ -6,6 +6,7 @@ use engine::inputs::{DeviceEvent, World};
 use engine::math::{PI, TAU, ln};
 use engine::{Aircraft, Inputs, State, observe, step};
 use logs::cdr;
+use logs::devices::DeviceIdentity;
 use logs::output::Output;
 use logs::view::LogLine;
 use rerun::{LineStrips3D, Radius, Scalars, SeriesLines};
@@ -121,6 +122,9 @@ pub fn draw_against(
     let file = Saved::new(saved)?;
     let mut page = Page::new(&file, (&first.aircraft, other.aircraft(&first)), how)?;
     while let Some(at) = first.cursor.now.take() {
+        if let Some(restart) = &at.restart {
+            page.first.restart(&mut page.canvas, restart.state.tick);
+        }
         let world = world_of(&at);
         let state: State = cdr::decode(&at.state).map_err(ReplayError::from)?;
         let beside = match &mut other {
@@ -132,11 +136,19 @@ pub fn draw_against(
                 if let Some((events, inputs)) = &at.led {
                     let inputs = Inputs { events, world: inputs.world };
                     let before = at.restart.as_ref().map_or(**reflown, |restart| restart.state);
+                    if at.restart.is_some() {
+                        page.second.restart(&mut page.canvas, before.tick);
+                    }
                     **reflown = step(&first.aircraft, &before, &inputs).0;
                 }
                 Some((**reflown, world))
             }
         };
+        if let Beside::Log(flight) = &mut other {
+            for tick in flight.restarts.drain(..) {
+                page.second.restart(&mut page.canvas, how.back(tick));
+            }
+        }
         let aircraft_beside = other.aircraft(&first);
         let events = at.led.as_ref().map_or(&[][..], |(events, _)| events);
         page.add(
@@ -147,11 +159,13 @@ pub fn draw_against(
     }
     let start_tick = first.cursor.start_tick;
     let mut judgements = Vec::new();
-    let (told, judgement) = first.told();
+    let (told, devices, judgement) = first.told();
+    page.first.facts.flown_with(&devices);
     page.tell_first(start_tick, &judgement, &told);
     judgements.push(judgement);
     if let Beside::Log(flight) = other {
-        let (told, judgement) = flight.told();
+        let (told, devices, judgement) = flight.told();
+        page.second.facts.flown_with(&devices);
         page.tell_second(start_tick, &judgement, &told, how);
         judgements.push(judgement);
     }
@@ -190,22 +204,25 @@ impl Beside {
 struct LoggedFlight {
     cursor: Cursor,
     aircraft: Aircraft,
+    /// Where another state took the place of the one flown, up to where it was looked at last.
+    restarts: Vec<u64>,
 }
 
 impl LoggedFlight {
     fn open(path: &Path) -> Result<Self, ReplayError> {
         let cursor = Cursor::open(path)?;
         let aircraft = read(&cursor.reader.setup)?.aircraft;
-        Ok(Self { cursor, aircraft })
+        Ok(Self { cursor, aircraft, restarts: Vec::new() })
     }
 
-    /// Reads what is left: what was told in it, and what it is.
-    fn told(mut self) -> (Vec<LogLine>, Judgement) {
+    /// Reads what is left: what was told in it, the input devices, and what it is.
+    fn told(mut self) -> (Vec<LogLine>, Vec<DeviceIdentity>, Judgement) {
         while self.cursor.now.is_some() {
             self.cursor.advance();
         }
         let log_lines = std::mem::take(&mut self.cursor.reader.log_lines);
-        (log_lines, self.cursor.finish().judgement)
+        let devices = std::mem::take(&mut self.cursor.reader.devices);
+        (log_lines, devices, self.cursor.finish().judgement)
     }
 
     fn first(&self) -> Result<State, ReplayError> {
@@ -216,6 +233,8 @@ impl LoggedFlight {
     fn at(&mut self, tick: u64) -> Result<Option<(State, World)>, ReplayError> {
         while self.cursor.now.as_ref().is_some_and(|now| now.tick < tick) {
             self.cursor.advance();
+            let restart = self.cursor.now.as_ref().and_then(|now| now.restart.as_ref());
+            self.restarts.extend(restart.map(|restart| restart.state.tick));
         }
         let Some(now) = self.cursor.now.as_ref().filter(|now| now.tick == tick) else {
             return Ok(None);
@@ -280,8 +299,9 @@ impl Page {
         canvas.keep(sent);
         let tracks = [(first, of_first), (second, of_second)]
             .map(|(look, aircraft)| Track::new(look, aircraft, how.layout.fields()));
-        tracks.iter().for_each(|track| track.begin(&mut canvas));
-        let [first, second] = tracks;
+        let [mut first, mut second] = tracks;
+        first.begin(&mut canvas);
+        second.begin(&mut canvas);
         Ok(Self {
             canvas,
             first,

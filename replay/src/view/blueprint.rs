@@ -159,7 +159,8 @@ impl Page<'_> {
         let eye = EyeControls3D::new().with_kind(Eye3DKind::Orbital).with_eye_up([0.0, 0.0, -1.0]);
         let grid = LineGrid3D::new().with_spacing(10.0).with_color(0xFF_FF_FF_50);
         let origin = format!("{}world", self.plan.roots[0]);
-        let without = ["ground", "grid", "chase/scale", "aircraft/forces", "aircraft/moments"];
+        let without =
+            ["ground", "grid", "start", "chase/scale", "aircraft/forces", "aircraft/moments"];
         let without = self.without(&without);
         self.scene("Overview", &origin, &without, &eye, &grid)
     }

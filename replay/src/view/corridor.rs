@@ -126,8 +126,17 @@ pub fn columns(rows: &[Outputs]) -> super::columns::Columns {
 
 /// Where the flight was in the plane.
 pub struct Trace {
-    points: Vec<([f32; 2], bool)>,
+    points: Vec<TracePoint>,
     spacing_kt: f64,
+}
+
+/// A point of it.
+#[derive(Clone, Copy)]
+struct TracePoint {
+    at: [f32; 2],
+    outside: bool,
+    /// How many restarts were before it.
+    start: u32,
 }
 
 impl Trace {
@@ -136,18 +145,19 @@ impl Trace {
         Self { points: Vec::new(), spacing_kt: SPACING_KT }
     }
 
-    /// Adds where it is, when that is somewhere else.
-    pub fn add(&mut self, outputs: &Outputs, aircraft: &Aircraft) {
+    /// Adds where it is after so many restarts, when that is somewhere else.
+    pub fn add(&mut self, outputs: &Outputs, aircraft: &Aircraft, start: u32) {
         let at = place_of(outputs);
         let outside = is_outside(outputs, aircraft);
-        let moved = self.points.last().is_none_or(|(last, was)| {
-            let far = max(f64::from(at[0] - last[0]).abs(), f64::from(at[1] - last[1]).abs());
-            far >= self.spacing_kt || *was != outside
+        let moved = self.points.last().is_none_or(|last| {
+            let along = |axis: usize| f64::from(at[axis] - last.at[axis]).abs();
+            let changed = last.outside != outside || last.start != start;
+            max(along(0), along(1)) >= self.spacing_kt || changed
         });
         if !moved {
             return;
         }
-        self.points.push((at, outside));
+        self.points.push(TracePoint { at, outside, start });
         if self.points.len() > POINTS_MAX {
             self.points = self.points.iter().copied().step_by(2).collect();
             self.spacing_kt *= 2.0;
@@ -158,13 +168,12 @@ impl Trace {
     pub fn send(&self, recording: &RecordingStream, look: &Look) -> RecordingStreamResult<()> {
         let mut strips: Vec<Vec<[f32; 2]>> = Vec::new();
         let mut colours = Vec::new();
-        for stretch in self.points.chunk_by(|a, b| a.1 == b.1) {
-            let mut strip: Vec<_> = stretch.iter().map(|(at, _)| *at).collect();
-            if let Some(joint) = strips.last().and_then(|before| before.last()).copied() {
-                strip.insert(0, joint);
-            }
-            strips.push(strip);
-            colours.push(if stretch[0].1 { OUTSIDE } else { look.path | 0xFF });
+        let mut before: Option<&TracePoint> = None;
+        for stretch in self.points.chunk_by(|a, b| a.outside == b.outside && a.start == b.start) {
+            let joint = before.filter(|before| before.start == stretch[0].start);
+            strips.push(joint.into_iter().chain(stretch).map(|point| point.at).collect());
+            before = stretch.last();
+            colours.push(if stretch[0].outside { OUTSIDE } else { look.path | 0xFF });
         }
         recording.log_static(
             look.entity(TRACK),
@@ -208,9 +217,9 @@ mod tests {
         assert!(!is_outside(&at(fastest_kt + 1.0, 1.0), &xv15));
         let mut trace = Trace::new();
         for i in 0..40_000_u32 {
-            trace.add(&at(f64::from(i % 300), 50.0), &xv15);
+            trace.add(&at(f64::from(i % 300), 50.0), &xv15, 0);
         }
         assert!(trace.points.len() <= POINTS_MAX);
-        assert!(trace.points.iter().any(|(_, outside)| *outside));
+        assert!(trace.points.iter().any(|point| point.outside));
     }
 }

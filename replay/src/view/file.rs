@@ -5,13 +5,16 @@
 //! not told at all (0.36.3, both seen). Here the first error is kept for [`RrdFile::close`].
 
 use std::fs::File;
-use std::io;
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use rerun::external::re_build_info::CrateVersion;
-use rerun::external::re_log_encoding::rrd::{EncodeError, Encoder, EncodingOptions};
+use rerun::external::re_log_encoding::Encodable;
+use rerun::external::re_log_encoding::rrd::{
+    EncodeError, Encoder, EncodingOptions, MessageHeader, MessageKind,
+};
 use rerun::external::re_log_types::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
@@ -67,11 +70,40 @@ pub struct RrdFile {
     state: Arc<Mutex<State>>,
 }
 
+/// A file of more chunks has no index: with as many, its index and what is made of it at the end take as much
+/// memory as everything else (`benches/view_cost.sh`).
+const INDEXED_MAX: usize = 4096;
+
 /// Either can be written, or has an error, or is closed.
 #[derive(Default)]
 struct State {
     encoder: Option<Encoder<File>>,
     error: Option<EncodeError>,
+    /// Chunks so far.
+    chunks: usize,
+}
+
+impl State {
+    fn append(&mut self, message: &LogMsg) -> Result<(), EncodeError> {
+        let Some(encoder) = &mut self.encoder else { return Ok(()) };
+        self.chunks += usize::from(matches!(message, LogMsg::ArrowMsg(..)));
+        if self.chunks > INDEXED_MAX {
+            encoder.do_not_emit_footer();
+        }
+        encoder.append(message).map(drop)
+    }
+
+    /// Writes the index, or where there is none says that the file ends here: a reader would wait for more.
+    fn finish(self) -> Result<(), EncodeError> {
+        let Some(mut encoder) = self.encoder else { return Ok(()) };
+        encoder.finish()?;
+        if self.chunks > INDEXED_MAX {
+            let mut end = Vec::new();
+            MessageHeader { kind: MessageKind::End, len: 0 }.to_rrd_bytes(&mut end)?;
+            encoder.into_inner()?.write_all(&end)?;
+        }
+        Ok(())
+    }
 }
 
 impl RrdFile {
@@ -79,17 +111,14 @@ impl RrdFile {
     pub fn new(file: File) -> Result<Self, EncodeError> {
         let encoder =
             Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
-        let state = State { encoder: Some(encoder), error: None };
+        let state = State { encoder: Some(encoder), ..State::default() };
         Ok(Self { state: Arc::new(Mutex::new(state)) })
     }
 
-    /// Writes the footer; tells the first error there was.
+    /// Writes the end; tells the first error there was.
     pub fn close(&self) -> Result<(), EncodeError> {
-        let State { encoder, error } = std::mem::take(&mut *self.lock());
-        if let Some(error) = error {
-            return Err(error);
-        }
-        encoder.map_or(Ok(()), |mut encoder| encoder.finish())
+        let mut state = std::mem::take(&mut *self.lock());
+        state.error.take().map_or_else(|| state.finish(), Err)
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -100,10 +129,8 @@ impl RrdFile {
 impl LogSink for RrdFile {
     fn send(&self, message: LogMsg) {
         let mut state = self.lock();
-        if let Some(encoder) = &mut state.encoder
-            && let Err(error) = encoder.append(&message)
-        {
-            *state = State { encoder: None, error: Some(error) };
+        if let Err(error) = state.append(&message) {
+            *state = State { error: Some(error), ..State::default() };
         }
     }
 
@@ -140,5 +167,29 @@ mod tests {
         file.lock().error = refusing.err();
         assert!(matches!(file.close(), Err(EncodeError::Write(_))));
         assert!(file.close().is_ok());
+    }
+
+    /// Without an index it ends with what says so: a viewer waits for more of a file that does not.
+    #[test]
+    fn a_long_recording_has_no_index_and_an_end() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (stream, storage) =
+            rerun::RecordingStreamBuilder::new("long").memory().expect("a stream");
+        stream.log_static("word", &rerun::TextLog::new("one")).expect("logged");
+        let messages = storage.take();
+        let chunk = messages.iter().find(|message| matches!(message, LogMsg::ArrowMsg(..)));
+        let chunk = chunk.expect("a chunk");
+        let written = |chunks: usize| {
+            let path = folder.path().join(format!("{chunks}.rrd"));
+            let file = RrdFile::new(File::create(&path).expect("a file")).expect("a recording");
+            (0..chunks).for_each(|_| file.send(chunk.clone()));
+            file.close().expect("room");
+            std::fs::read(path).expect("a file")
+        };
+        // What says where an index is.
+        let has_index = |bytes: &[u8]| bytes[bytes.len() - 64..].windows(4).any(|of| of == b"FOOT");
+        let (few, many) = (written(INDEXED_MAX), written(INDEXED_MAX + 1));
+        assert!(has_index(&few) && !has_index(&many));
+        assert!(many.ends_with(&[0; MessageHeader::ENCODED_SIZE_BYTES]));
     }
 }

@@ -1,38 +1,95 @@
 //! What stands above every arrangement: which flight it is, what it is worth, and how it ended.
 
 use engine::aircraft::Params as Aircraft;
+use engine::frames::{Ned, Vec3};
 use engine::outputs::{Severity, Validity};
 use engine::{Outputs, STEP_NS, STEP_S};
+use logs::devices::DeviceIdentity;
 use logs::records::TimingRecord;
-use logs::text::at;
+
+use rerun::{Points3D, Radius, RecordingStream, RecordingStreamResult};
 
 use super::canvas::{About, Canvas};
+use super::columns::point;
 use super::look::Look;
 use super::parts::HEADING;
+
+/// So many endings are told above a flight; the list of events has all.
+const ENDINGS_MAX: usize = 2;
+
+/// From one tick on nothing means anything, until the flight goes on from another state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ending {
+    /// The first tick of it.
+    pub tick: u64,
+    /// The tick at which another state took the place of the one that was flown, if one did.
+    pub until: Option<u64>,
+    /// Whether it is the hull on the ground; else numbers that are none.
+    is_crash: bool,
+    words: &'static str,
+    /// Where it was.
+    pub position_m: Vec3<Ned>,
+}
+
+impl Ending {
+    /// What it is called.
+    pub fn name(&self) -> &'static str {
+        if self.is_crash { "CRASH" } else { "FROZEN" }
+    }
+
+    /// What it is, and when it began.
+    pub fn words(&self) -> String {
+        format!("{} at {:.2} s: {}", self.name(), self.tick as f64 * STEP_S, self.words)
+    }
+
+    /// What it is, and from when to when.
+    pub fn label(&self) -> String {
+        match self.until {
+            Some(tick) => format!("{}; restarted at {:.2} s", self.words(), tick as f64 * STEP_S),
+            None => self.words(),
+        }
+    }
+
+    /// In bold.
+    fn told(&self) -> String {
+        let words = self.words();
+        match self.until {
+            Some(tick) => {
+                let at_s = tick as f64 * STEP_S;
+                format!("**{words}. Nothing until the restart at {at_s:.2} s means anything.**")
+            }
+            None => format!("**{words}. Nothing after it means anything.**"),
+        }
+    }
+}
 
 /// What is told of a flight above it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Facts {
     aircraft: String,
+    /// Whose hands it was in.
+    hands: String,
     /// First and last tick.
     span: Option<(u64, u64)>,
     /// What the log is.
     verdict: String,
-    /// When it ended before its end, and as what.
-    crash: Option<(u64, &'static str)>,
+    /// When it ended before its end, and went on.
+    endings: Vec<Ending>,
+    /// The last tick that another state took the place of.
+    restarted: Option<u64>,
     /// How its ticks kept time, as far as they have times.
     pace: Pace,
 }
 
 /// How ticks kept time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Pace {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pace {
     /// Ticks that have times.
-    ticks: u64,
+    pub ticks: u64,
     /// Those that ended after the next one was due.
-    overruns: u64,
-    /// The latest to wake up, and by how much; 0 where nothing waited for the clock.
-    latest: (u64, u64),
+    pub overruns: u64,
+    /// The latest to wake up, and by how much, ns; 0 where nothing waited for the clock.
+    pub latest: (u64, u64),
 }
 
 impl Pace {
@@ -57,16 +114,46 @@ impl Facts {
         Self { aircraft: aircraft.name.clone(), ..Self::default() }
     }
 
-    /// Takes a tick; whether nothing after it means anything, and why, where that is new.
-    pub fn add(&mut self, outputs: &Outputs) -> Option<&'static str> {
+    /// Takes a tick; whether it is the first of some of which nothing means anything.
+    pub fn add(&mut self, outputs: &Outputs) -> bool {
         let (first, last) = self.span.unwrap_or((outputs.tick, outputs.tick));
         self.span = Some((first.min(outputs.tick), last.max(outputs.tick)));
-        if self.crash.is_some() {
-            return None;
+        // What was flown before the last restart may be seen after it is known.
+        let is_old = self.restarted.is_some_and(|tick| outputs.tick <= tick);
+        if is_old || self.over().is_some() {
+            return false;
         }
-        let met = outputs.validity.told().find(|facts| facts.severity == Severity::Final)?;
-        self.crash = Some((outputs.tick, met.words));
-        Some(if met.flag == Validity::HULL { "CRASH" } else { "FROZEN" })
+        let mut met = outputs.validity.told().filter(|facts| facts.severity == Severity::Final);
+        let Some(met) = met.next() else { return false };
+        self.endings.push(Ending {
+            tick: outputs.tick,
+            until: None,
+            is_crash: met.flag == Validity::HULL,
+            words: met.words,
+            position_m: outputs.position_m,
+        });
+        true
+    }
+
+    /// Another state took the place of the one at a tick; whether that one meant nothing.
+    pub fn restart(&mut self, tick: u64) -> bool {
+        self.restarted = Some(tick);
+        let over = self.endings.last_mut().filter(|ending| ending.until.is_none());
+        over.map(|ending| ending.until = Some(tick.max(ending.tick))).is_some()
+    }
+
+    /// Takes the input devices that were there: of no device hands are those of a program, or on a keyboard.
+    pub fn flown_with(&mut self, devices: &[DeviceIdentity]) {
+        let mapped: Vec<&str> = devices
+            .iter()
+            .filter(|device| device.mapped != 0)
+            .map(|device| device.name.as_str())
+            .collect();
+        self.hands = if mapped.is_empty() {
+            "by a pilot model, script or keyboard".into()
+        } else {
+            format!("by hand, with {}", mapped.join(", "))
+        };
     }
 
     /// Takes how a tick kept time.
@@ -78,37 +165,68 @@ impl Facts {
         }
     }
 
+    /// Takes how all ticks so far kept time.
+    pub fn keep(&mut self, pace: Pace) {
+        self.pace = pace;
+    }
+
     /// Takes what the log is.
     pub fn judge(&mut self, verdict: &str) {
         self.verdict = verdict.into();
     }
 
-    /// When it ended before its end.
-    pub fn crash_words(&self) -> Option<String> {
-        let (tick, words) = self.crash?;
-        Some(format!("CRASH at {:.2} s: {words}", tick as f64 * STEP_S))
+    /// All its endings.
+    pub fn endings(&self) -> &[Ending] {
+        &self.endings
     }
 
-    /// What is told in bold of one that ended before its end.
-    fn crash(&self) -> Option<String> {
-        let (tick, words) = self.crash?;
-        Some(format!("**CRASH at {}: {words}. Nothing after it means anything.**", at(tick)))
+    /// The ending that has no end so far.
+    pub fn over(&self) -> Option<&Ending> {
+        self.endings.last().filter(|ending| ending.until.is_none())
+    }
+
+    /// What is told in bold of one that ended before its end: the last ones.
+    fn told_endings(&self) -> Vec<String> {
+        let left = self.endings.len().saturating_sub(ENDINGS_MAX);
+        let mut told: Vec<String> = self.endings[left..].iter().map(Ending::told).collect();
+        if left > 0 {
+            told.push(format!("{left} more before, each until a restart."));
+        }
+        told
     }
 
     /// The lines below a flight's name.
     fn lines(&self, flown: &str) -> Vec<String> {
         let mut lines = Vec::new();
-        lines.extend(self.crash());
+        lines.extend(self.told_endings());
         let length = self.span.map(|(first, last)| {
             format!("{:.1} to {:.1} s", first as f64 * STEP_S, last as f64 * STEP_S)
         });
-        let first = [Some(flown.to_string()), length, self.pace.words()];
+        let when = [escaped(flown), escaped(&self.hands)].join(" ").trim().to_string();
+        let first = [Some(when), length, self.pace.words()];
         let first: Vec<String> =
             first.into_iter().flatten().filter(|words| !words.is_empty()).collect();
-        lines.push(first.join(" · "));
         lines.extend((!self.verdict.is_empty()).then(|| self.verdict.clone()));
+        lines.push(first.join(" · "));
         lines
     }
+}
+
+/// Marks where it ended before its end, each time.
+pub fn send_endings(
+    recording: &RecordingStream,
+    look: &Look,
+    endings: &[Ending],
+) -> RecordingStreamResult<()> {
+    let labels = endings.iter().map(|ending| format!("{}{}", look.name, ending.label()));
+    recording.log_static(
+        look.entity("world/crash"),
+        &Points3D::new(endings.iter().map(|ending| point(ending.position_m)))
+            .with_radii([Radius::new_ui_points(7.0)])
+            .with_colors([0xFF_20_20_FF])
+            .with_labels(labels)
+            .with_show_labels(true),
+    )
 }
 
 /// Writes what is known of the only flight.
@@ -134,9 +252,12 @@ pub fn send_two(canvas: &mut Canvas, flights: [(&Look, &Facts); 2]) {
     for (of, (look, facts)) in flights.into_iter().enumerate() {
         let flown = canvas.about.flown.get(of).map_or("", String::as_str);
         let name = escaped(look.name.trim_end_matches(": "));
-        let told = [Some(escaped(&facts.aircraft)), Some(flown.to_string()), facts.crash()];
+        let when = [escaped(flown), escaped(&facts.hands)].join(" ").trim().to_string();
+        // There is little room: of the verdict what it says of the whole.
+        let verdict = facts.verdict.split(", ").next().unwrap_or_default().to_string();
+        let told = [escaped(&facts.aircraft)].into_iter().chain(facts.told_endings());
         let told: Vec<String> =
-            told.into_iter().flatten().filter(|words| !words.is_empty()).collect();
+            told.chain([verdict, when]).filter(|words| !words.is_empty()).collect();
         lines.push(format!("**{name}** ({}): {}", LINES[of], told.join(" · ")));
     }
     let name = format!("**{}**", escaped(&canvas.about.title));
@@ -150,7 +271,7 @@ fn page(name: String, lines: Vec<String>) -> String {
 }
 
 /// What Markdown would take for its own: a log may be called anything.
-fn escaped(words: &str) -> String {
+pub fn escaped(words: &str) -> String {
     let own = |letter: char| "\\`*_{}[]<>()#!|~".contains(letter);
     words.chars().flat_map(|c| own(c).then_some('\\').into_iter().chain([c])).collect()
 }
@@ -175,9 +296,14 @@ mod tests {
     fn a_page_says_which_flight_it_is_and_whether_it_was_in_real_time() {
         let mut facts = facts();
         for tick in 1..=500 {
-            assert_eq!(facts.add(&Outputs { tick, ..Outputs::default() }), None);
+            assert!(!facts.add(&Outputs { tick, ..Outputs::default() }));
         }
         facts.judge("exact: all 500 ticks");
+        let stick = |mapped| DeviceIdentity { mapped, name: "X_52".into(), ..Default::default() };
+        facts.flown_with(&[stick(0)]);
+        assert!(alone(&about(), &facts).contains("UTC by a pilot model, script or"));
+        facts.flown_with(&[stick(0), stick(1)]);
+        assert!(alone(&about(), &facts).contains("UTC by hand, with X\\_52 ·"));
         let page = alone(&about(), &facts);
         for words in ["my\\_flight", "Bell XV-15", "2026-11-26", "to 2.0 s", "exact: all 500"] {
             assert!(page.contains(words), "{words} in {page}");
@@ -191,14 +317,53 @@ mod tests {
         assert!(alone(&about(), &facts).contains(told));
     }
 
+    fn wreck(tick: u64, validity: Validity) -> Outputs {
+        Outputs { tick, validity, ..Outputs::default() }
+    }
+
     #[test]
     fn a_crash_is_told_once_and_stays() {
         let mut facts = facts();
-        let wreck = |tick| Outputs { tick, validity: Validity::HULL, ..Outputs::default() };
-        assert_eq!(facts.add(&wreck(250)), Some("CRASH"));
-        assert_eq!(facts.add(&wreck(251)), None);
+        assert!(facts.add(&wreck(250, Validity::HULL)));
+        assert!(!facts.add(&wreck(251, Validity::HULL)));
         facts.add(&Outputs { tick: 300, ..Outputs::default() });
         let page = alone(&about(), &facts);
-        assert!(page.contains("**CRASH at tick 250 (1.000 s): hull on the ground."), "{page}");
+        let told = "**CRASH at 1.00 s: hull on the ground. Nothing after it means anything.**";
+        assert!(page.contains(told), "{page}");
+        assert_eq!(
+            facts.over().map(Ending::words).as_deref(),
+            Some("CRASH at 1.00 s: hull on the ground")
+        );
+    }
+
+    #[test]
+    fn a_crash_ends_with_a_restart_and_the_next_one_is_another() {
+        let mut facts = facts();
+        facts.add(&wreck(250, Validity::HULL));
+        assert!(facts.restart(500));
+        assert_eq!(facts.over(), None);
+        // Seen late, of before the restart.
+        assert!(!facts.add(&wreck(500, Validity::HULL)));
+        let page = alone(&about(), &facts);
+        assert!(page.contains("Nothing until the restart at 2.00 s means"), "{page}");
+        assert!(!page.contains("Nothing after it"), "{page}");
+        // One that was not over.
+        assert!(!facts.restart(600));
+        assert!(facts.add(&wreck(750, Validity::HULL)));
+        let page = alone(&about(), &facts);
+        assert!(page.contains("at 1.00 s") && page.contains("Nothing after it means"), "{page}");
+        facts.restart(800);
+        facts.add(&wreck(900, Validity::HULL));
+        let page = alone(&about(), &facts);
+        assert!(page.contains("1 more before") && !page.contains("at 1.00 s"), "{page}");
+    }
+
+    #[test]
+    fn a_flight_that_freezes_has_not_crashed() {
+        let mut facts = facts();
+        facts.add(&wreck(250, Validity::FROZEN));
+        let page = alone(&about(), &facts);
+        assert!(page.contains("**FROZEN at 1.00 s") && !page.contains("CRASH"), "{page}");
+        assert!(facts.endings()[0].label().starts_with("FROZEN at 1.00 s"));
     }
 }

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use engine::STEP_S;
 use logs::text::at;
 
+use super::heading::escaped;
 use super::plots::GRAPHS;
 
 /// What was found so far, line by line.
@@ -26,7 +27,7 @@ impl Largest {
 
     /// In Markdown: where they part, and a table of what differs, in the order of the graphs.
     pub fn page(&self, [first, second]: [&str; 2], first_difference: Option<u64>) -> String {
-        let mut page = format!("# {second} less {first}\n\n");
+        let mut page = format!("# {} less {}\n\n", escaped(second), escaped(first));
         match first_difference {
             Some(tick) => page.push_str(&format!("First difference at {}.\n\n", at(tick))),
             None => page.push_str("No difference: the same states to the bit.\n\n"),

@@ -83,16 +83,24 @@ fn above() -> Part {
 /// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::parts::RAW) is all axes.
 type Tab = (&'static str, &'static [&'static str]);
 
-const FLIGHT: Tab = ("Flight", &["height", "airspeed", "nacelle", "attitude"]);
-const MOTION: Tab = ("Motion", &["heading", "rates", "climb", "flow", "load_factor"]);
-const CONTROLS: Tab = ("Control chain", &["raw", "pilot", "scas", "elevator", "flaperons"]);
-const BLADES: Tab =
-    ("Blades", &["collective", "cyclic", "flapping_aft", "flapping_outboard", "coning"]);
-const ROTORS: Tab = ("Rotors", &["rotor_speed", "thrust", "torque", "inflow", "blade_loading"]);
-const ENGINES: Tab = ("Engines", &["power", "torque", "rotor_speed", "fuel_flow", "fuel"]);
-const LOADS: Tab = ("Loads", &["force_x", "force_z", "moment_roll", "moment_pitch", "moment_yaw"]);
-const GEAR: Tab = ("Gear", &["gear_push", "gear_compression", "gear_extension", "wind", "stalled"]);
-const LATENCY: Tab = ("Latency", &["sent", "latency", "step", "slip", "overrun"]);
+// Not more than four below each other: lower ones have no room for the numbers of their axes.
+const FLIGHT: Tab = ("Flight", &["height", "airspeed", "attitude"]);
+const MOTION: Tab = ("Motion", &["nacelle", "heading", "climb", "load_factor"]);
+const AIR: Tab = ("Air", &["rates", "flow", "wind", "stalled"]);
+const CONTROLS: Tab = ("Control chain", &["raw", "pilot", "scas", "elevator"]);
+const ACTUATORS: Tab = ("Actuators", &["flaperons", "collective", "cyclic"]);
+const ROTORS: Tab = ("Rotors", &["thrust", "torque", "rotor_speed"]);
+const INFLOW: Tab = ("Inflow", &["inflow", "blade_loading", "stalled"]);
+const FLAPPING: Tab = ("Flapping", &["flapping_aft", "flapping_outboard", "coning"]);
+const ENGINES: Tab = ("Engines", &["power", "fuel_flow", "fuel"]);
+const FORCES: Tab = ("Forces", &["force_x", "force_z"]);
+const MOMENTS: Tab = ("Moments", &["moment_roll", "moment_pitch", "moment_yaw"]);
+const GEAR: Tab = ("Gear", &["gear_push", "gear_compression", "gear_extension"]);
+const TIMES_OF_TICKS: Tab = ("Every tick", &["sent", "step", "latency"]);
+const SLIPS: Tab = ("Slips and overruns", &["slip", "overrun"]);
+
+/// Of the plots and the lanes below them: all lanes are seen in a window 900 points high.
+const PLOTS_AND_LANES: [f32; 2] = [11.3, 12.2];
 
 /// Behind the aircraft, to its left and above it.
 const BEHIND_M: [f32; 3] = [-16.0, -12.5, -7.0];
@@ -158,83 +166,91 @@ fn tabs(plan: &Plan, all: &[Tab]) -> Part {
     Part::Tabs("Plots".into(), all.iter().map(|one| tab(plan, *one)).collect())
 }
 
+/// The aircraft, where it was, and what happened.
+fn left(aircraft: Part) -> Part {
+    let parts = vec![aircraft, places(&Shown::Corridor), view(Shown::Events)];
+    down("Where", &[4.0, 2.8, 2.6], parts)
+}
+
+fn right(plots: Part) -> Part {
+    down("When", &PLOTS_AND_LANES, vec![plots, lanes()])
+}
+
 fn pilot(plan: &Plan) -> Part {
-    let left = vec![aircraft(BEHIND_M, NO_LOADS), places(&Shown::Corridor), view(Shown::Events)];
-    let plots = tabs(plan, &[FLIGHT, MOTION, CONTROLS, ROTORS, ENGINES, GEAR]);
-    across(
-        "Pilot",
-        &[11.0, 10.0],
-        vec![
-            down("Where", &[5.0, 3.0, 2.0], left),
-            down("When", &[11.7, 11.3], vec![plots, lanes()]),
-        ],
-    )
+    let plots = tabs(plan, &[FLIGHT, MOTION, CONTROLS, ROTORS, ENGINES, GEAR, AIR]);
+    across("Pilot", &[11.0, 10.0], vec![left(aircraft(BEHIND_M, NO_LOADS)), right(plots)])
 }
 
 fn engineer(plan: &Plan) -> Part {
-    let left = vec![aircraft(BEHIND_M, NO_MOMENTS), places(&Shown::Corridor), view(Shown::Events)];
-    let all = [FLIGHT, CONTROLS, LOADS, ROTORS, BLADES, ENGINES, MOTION, GEAR, LATENCY];
-    across(
-        "Engineer",
-        &[2.0, 3.0],
-        vec![
-            down("Where", &[3.0, 2.0, 2.0], left),
-            down("When", &[11.7, 11.3], vec![tabs(plan, &all), lanes()]),
-        ],
-    )
+    let groups = [
+        tab(plan, FLIGHT),
+        tab(plan, MOTION),
+        tab(plan, AIR),
+        tab(plan, CONTROLS),
+        tab(plan, ACTUATORS),
+        Part::Tabs("Rotors".into(), [ROTORS, INFLOW, FLAPPING].map(|one| tab(plan, one)).into()),
+        tab(plan, ENGINES),
+        Part::Tabs("Loads".into(), [FORCES, MOMENTS, GEAR].map(|one| tab(plan, one)).into()),
+        Part::Tabs("Latency".into(), [TIMES_OF_TICKS, SLIPS].map(|one| tab(plan, one)).into()),
+    ];
+    let plots = Part::Tabs("Plots".into(), groups.into());
+    across("Engineer", &[2.0, 3.0], vec![left(aircraft(BEHIND_M, NO_MOMENTS)), right(plots)])
 }
 
 fn rotor(plan: &Plan) -> Part {
-    let left = vec![aircraft(NEAR_M, &[]), places(&Shown::Corridor), view(Shown::Events)];
     let plots = across(
         "Rotors",
         &[],
-        vec![tabs(plan, &[ROTORS, ENGINES, GEAR]), tabs(plan, &[BLADES, LOADS, CONTROLS])],
-    );
-    across(
-        "Rotor",
-        &[1.0, 2.0],
         vec![
-            down("Where", &[3.0, 2.0, 2.0], left),
-            down("When", &[11.7, 11.3], vec![plots, lanes()]),
+            tabs(plan, &[ROTORS, INFLOW, ENGINES, GEAR]),
+            tabs(plan, &[ACTUATORS, FLAPPING, FORCES, MOMENTS, CONTROLS]),
         ],
-    )
+    );
+    across("Rotor", &[1.0, 2.0], vec![left(aircraft(NEAR_M, &[])), right(plots)])
 }
 
 fn latency(plan: &Plan) -> Part {
-    let right = vec![aircraft(BEHIND_M, NO_LOADS), view(Shown::Events)];
-    let left = vec![tab(plan, LATENCY), lanes()];
+    let beside = vec![aircraft(BEHIND_M, NO_LOADS), view(Shown::Events)];
     across(
         "Latency",
         &[5.0, 2.0],
-        vec![down("When", &[11.7, 11.3], left), down("Where", &[1.0, 1.0], right)],
+        vec![right(tabs(plan, &[TIMES_OF_TICKS, SLIPS])), down("Where", &[1.0, 1.0], beside)],
     )
 }
 
 /// Graphs that are compared, with room for the legends of two; times of ticks are the machine's, not the flight's.
-const COMPARED: [Tab; 10] = [
+const COMPARED: [Tab; 13] = [
     FLIGHT,
-    ("Controls", &["pilot", "scas", "elevator", "flaperons"]),
-    ("Motion", &["heading", "rates", "climb", "load_factor"]),
-    ("Rotors", &["rotor_speed", "thrust", "torque", "blade_loading"]),
-    ("Blades", &["collective", "cyclic", "flapping_aft", "flapping_outboard"]),
-    ("Engines", &["power", "fuel_flow", "fuel"]),
-    ("Forces", &["force_x", "force_z", "moment_pitch"]),
-    ("Moments", &["moment_roll", "moment_yaw", "flow"]),
-    ("Gear", &["gear_push", "gear_compression", "gear_extension", "wind"]),
-    ("More", &["inflow", "coning", "stalled", "raw"]),
+    MOTION,
+    ("Controls", &["pilot", "scas", "elevator"]),
+    ACTUATORS,
+    ROTORS,
+    INFLOW,
+    FLAPPING,
+    ENGINES,
+    FORCES,
+    MOMENTS,
+    GEAR,
+    ("Air", &["rates", "flow", "wind"]),
+    ("Raw counts", &["raw"]),
 ];
 
 fn compare(plan: &Plan) -> Part {
     let pairs = COMPARED.iter().map(|(name, graphs)| {
         let delta =
             graphs.iter().filter_map(|name| graph(name)).filter(|(_, of)| !of.contains('*'));
-        let deltas = delta.map(|(title, entity)| {
-            let queries = vec![format!("/delta/{entity}")];
-            view(Shown::Plot { title: format!("Δ {title}"), queries, legend: true })
-        });
-        let difference = down("Difference", &[], deltas.collect());
-        across(name, &[], vec![tab(plan, (name, graphs)), difference])
+        let deltas: Vec<Part> = delta
+            .map(|(title, entity)| {
+                let queries = vec![format!("/delta/{entity}")];
+                view(Shown::Plot { title: format!("Δ {title}"), queries, legend: true })
+            })
+            .collect();
+        let both = tab(plan, (name, graphs));
+        // What devices said has no difference: they say it at times of their own.
+        if deltas.is_empty() {
+            return both;
+        }
+        across(name, &[], vec![both, down("Difference", &[], deltas)])
     });
     let mut plots: Vec<Part> = pairs.collect();
     plots.push(view(Shown::Plot {
@@ -304,7 +320,8 @@ mod tests {
                 .any(|one| matches!(one, Shown::Plot { queries, .. } if queries.contains(&query)));
             assert!(drawn, "{entity}");
         }
-        for (tab, graphs) in COMPARED.iter().chain([&LATENCY]) {
+        for (tab, graphs) in COMPARED.iter().chain([&TIMES_OF_TICKS, &SLIPS]) {
+            assert!(graphs.len() <= 4, "{tab} has too many for their height");
             for name in *graphs {
                 assert!(graph(name).is_some(), "{tab}: {name}");
             }

@@ -12,6 +12,7 @@ use logs::records::TimingRecord;
 use super::basics::Severity;
 use super::canvas::{About, Canvas};
 use super::events::Happened;
+pub use super::heading::Pace;
 use super::layout::Layout;
 use super::link::{Link, Standing};
 use super::look::Look;
@@ -28,6 +29,10 @@ const PATH_TICKS: u64 = 1250;
 const PATH_PART: u64 = 20;
 /// So many events are told to a viewer that comes back.
 const EVENTS_MAX: usize = 1000;
+
+/// What its log is, for now.
+const NOT_VERIFIED: &str =
+    "not verified while it is flown: `tiltrotor verify` says what the log is";
 
 /// What came of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,10 +74,12 @@ pub struct LiveView {
 impl LiveView {
     /// For the viewer that listens at `place`, `HOST:PORT`, now or later.
     pub fn new(place: &str, about: About, layout: Layout, aircraft: &Aircraft) -> Self {
+        let mut track = Track::live(Look::alone(), aircraft, layout.fields());
+        track.facts.judge(NOT_VERIFIED);
         Self {
             place: place.into(),
             about,
-            track: Track::live(Look::alone(), aircraft, layout.fields()),
+            track,
             layout,
             aircraft: aircraft.clone(),
             events: Vec::new(),
@@ -106,22 +113,25 @@ impl LiveView {
         }
     }
 
-    /// Takes what is seen now, and how the latest tick kept time. Comes back at once.
-    pub fn push(&mut self, seen: Moment, timing: &TimingRecord) {
+    /// Takes what is seen now, how the latest tick kept time, and how all of them did. Comes back at once.
+    pub fn push(&mut self, seen: Moment, timing: &TimingRecord, pace: Pace) {
         self.look();
         let tick = seen.outputs.tick;
         let first_tick = *self.first_tick.get_or_insert(tick);
         let (Some(canvas), Some(link)) = (&mut self.canvas, &self.link) else {
             self.tally.unseen += 1;
-            self.track.remember(seen.outputs);
+            self.track.miss(seen.outputs, seen.world);
+            self.track.facts.keep(pace);
             return;
         };
         if !link.has_room() {
             self.tally.dropped += 1;
-            self.track.remember(seen.outputs);
+            self.track.miss(seen.outputs, seen.world);
+            self.track.facts.keep(pace);
             return;
         }
         self.track.time(canvas, timing);
+        self.track.facts.keep(pace);
         self.track.draw(canvas, seen.outputs, seen.world);
         if tick >= self.path_tick {
             self.track.send_whole(canvas);
@@ -142,6 +152,16 @@ impl LiveView {
             self.events.remove(0);
         }
         self.events.push((tick, level, text.into()));
+    }
+
+    /// Another state took the place of the one at a tick.
+    pub fn restart(&mut self, tick: u64) {
+        match &mut self.canvas {
+            Some(canvas) => self.track.restart(canvas, tick),
+            None => {
+                self.track.go_on_from(tick);
+            }
+        }
     }
 
     /// Sends what is left, fits the layout to the whole flight, and says what came of it.
@@ -201,7 +221,7 @@ mod tests {
             let began = Instant::now();
             let world = World::default();
             let seen = Moment { outputs: &outputs, world: &world, events: &[] };
-            view.push(seen, &TimingRecord::default());
+            view.push(seen, &TimingRecord::default(), Pace::default());
             longest = longest.max(began.elapsed());
             std::thread::sleep(Duration::from_millis(20));
         }

@@ -49,6 +49,22 @@ impl Mode {
         }
     }
 
+    /// What each of its values is called beside an aircraft: the flaps by their angles, too.
+    pub fn labels(&self, aircraft: &Aircraft) -> Vec<String> {
+        let label = |(place, (value, _)): (usize, &(&'static str, u32))| match aircraft
+            .fcc
+            .mixer
+            .flap_rad
+            .get(place)
+        {
+            Some(flap_rad) if self.path == FLAPS => {
+                format!("{:.0}\u{b0} {value}", degrees(*flap_rad))
+            }
+            _ => (*value).to_string(),
+        };
+        self.values.iter().enumerate().map(label).collect()
+    }
+
     /// What it is.
     pub fn of(&self, seen: Seen) -> &'static str {
         match self.reading {
@@ -64,6 +80,10 @@ const ACTIVE: u32 = 0x2F_7F_D0_FF;
 const CAUTION: u32 = 0xE0_9A_20_FF;
 const ALARM: u32 = 0xD0_40_38_FF;
 const GREEN: u32 = 0x30_90_60_FF;
+
+const FLAPS: &str = "modes/flaps";
+const GOVERNOR: &str = "modes/governor";
+const HOLDS: &str = "holds the speed";
 
 /// The flap lever's detents; their angles are the aircraft's.
 const DETENTS: [&str; 4] = ["up", "first detent", "second detent", "last detent"];
@@ -101,7 +121,7 @@ pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
             gear,
         ),
         Mode::new(
-            "modes/flaps",
+            FLAPS,
             &[
                 (DETENTS[0], QUIET),
                 (DETENTS[1], 0x2A_5C_90_FF),
@@ -116,13 +136,8 @@ pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
             scas,
         ),
         Mode::new(
-            "modes/governor",
-            &[
-                ("holds the speed", QUIET),
-                ("underspeed", CAUTION),
-                ("overspeed", ALARM),
-                ("failed", ALARM),
-            ],
+            GOVERNOR,
+            &[(HOLDS, QUIET), ("underspeed", CAUTION), ("overspeed", ALARM), ("failed", ALARM)],
             governor,
         ),
         Mode::new("modes/failures", &failures, failures_now),
@@ -195,8 +210,13 @@ fn governor(Seen { outputs, world, aircraft }: Seen) -> &'static str {
     match outputs.rotor_speed_radps {
         speed_radps if speed_radps < limits.underspeed_norm * selected_radps => "underspeed",
         speed_radps if speed_radps > limits.overspeed_radps => "overspeed",
-        _ => "holds the speed",
+        _ => HOLDS,
     }
+}
+
+/// What is told of a change beside its lane, which may be too short for a word; no other event of a log tells it.
+pub fn alarm(mode: &Mode, value: &str) -> Option<String> {
+    (mode.path == GOVERNOR && value != HOLDS).then(|| format!("governor {value}"))
 }
 
 const NONE: &str = "none";
@@ -277,6 +297,22 @@ mod tests {
         }
         assert!(at(Failures::ENGINES).contains(&("modes/failures", SEVERAL)));
         assert!(at(Failures::GOVERNOR).contains(&("modes/governor", "failed")));
+    }
+
+    #[test]
+    fn flaps_are_called_by_their_angles_too() {
+        let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let labels = |path: &str| {
+            let mode = MODES.iter().find(|mode| mode.path == path).expect("a lane");
+            assert_eq!(mode.labels(&aircraft).len(), mode.values.len());
+            mode.labels(&aircraft)
+        };
+        let angles = aircraft.fcc.mixer.flap_rad.map(|rad| format!("{:.0}\u{b0} ", degrees(rad)));
+        for (label, angle) in labels(FLAPS).iter().zip(angles) {
+            assert!(label.starts_with(&angle), "{label}");
+        }
+        assert_eq!(labels("modes/gear")[0], "up");
     }
 
     #[test]

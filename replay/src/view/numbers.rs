@@ -7,6 +7,7 @@ use engine::{Outputs, STEP_S};
 use rerun::{MediaType, RecordingStream, RecordingStreamResult, TextDocument};
 
 use super::canvas::{Canvas, times};
+use super::heading::escaped;
 use super::modes;
 
 /// Of so many rows one is told: five a second, as fast as anybody reads.
@@ -72,16 +73,16 @@ pub fn settings(outputs: &Outputs) -> ([&'static str; 2], u64) {
     (modes::words(outputs), outputs.cockpit.flap_detent)
 }
 
-/// What is read at a tick; after a crash with what it is worth.
-pub fn page(outputs: &Outputs, crash: Option<&str>) -> String {
+/// What is read at a tick; when the flight is over with what it is worth.
+pub fn page(outputs: &Outputs, over: Option<&str>) -> String {
     let mut page = String::new();
     head(&mut page, "time, s");
     line(&mut page, &format!("**{:.2}**", outputs.tick as f64 * STEP_S), |number| {
         (number.of)(outputs)
     });
     words(&mut page, outputs);
-    if let Some(crash) = crash {
-        let _ = write!(page, "\n**{crash}: none of these numbers means anything.**\n");
+    if let Some(over) = over {
+        let _ = write!(page, "\n**{over}: none of these numbers means anything.**\n");
     }
     page
 }
@@ -91,7 +92,7 @@ pub fn page_of_two(names: [&str; 2], both: [&Outputs; 2]) -> String {
     let mut page = String::new();
     head(&mut page, &format!("at {:.2} s", both[0].tick as f64 * STEP_S));
     for (name, outputs) in names.into_iter().zip(both) {
-        line(&mut page, &format!("**{name}**"), |number| (number.of)(outputs));
+        line(&mut page, &format!("**{}**", escaped(name)), |number| (number.of)(outputs));
         words(&mut page, outputs);
     }
     line(&mut page, "difference", |number| {
@@ -184,7 +185,10 @@ mod tests {
 
     #[test]
     fn of_two_the_difference_goes_the_shorter_way_round() {
-        let page = page_of_two(["a", "b"], [&outputs(350.0), &outputs(10.0)]);
+        let page = page_of_two(["a_1", "b|2"], [&outputs(350.0), &outputs(10.0)]);
+        // A name is neither Markdown nor a column.
+        assert!(page.contains("**a\\_1**") && page.contains("**b\\|2**"), "{page}");
+        let page = page.replace("\\|", "");
         let lines: Vec<Vec<&str>> = page.lines().map(cells).collect();
         assert_eq!(lines.len(), 5, "{page}");
         assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{page}");

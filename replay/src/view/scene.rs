@@ -21,16 +21,19 @@ pub struct PathPoint {
     place: Geodetic,
     /// RGB of the configuration that it was flown in.
     pub colour: u32,
+    /// How many restarts were before it: from one to the next nothing was flown.
+    pub start: u32,
 }
 
 impl PathPoint {
-    /// Where the aircraft is.
-    pub fn new(outputs: &Outputs) -> Self {
+    /// Where the aircraft is, after so many restarts.
+    pub fn new(outputs: &Outputs, start: u32) -> Self {
         Self {
             position_m: outputs.position_m,
             ground_z_m: outputs.position_m.z + outputs.height_above_ground_m,
             place: outputs.place,
             colour: super::modes::configuration(outputs).1,
+            start,
         }
     }
 
@@ -73,7 +76,7 @@ pub fn send_moving(
     send("world/aircraft/airframe", pose(rows, datum, still));
     send(forces::WIND, forces::wind_columns(rows));
     let plumb = LineStrips3D::new(rows.iter().map(|row| {
-        let below = PathPoint::new(row);
+        let below = PathPoint::new(row, 0);
         [point(below.position_m), point(below.on_ground_m())]
     }));
     send("world/plumb", plumb.columns_of_unit_batches().map(Vec::from_iter));
@@ -162,7 +165,7 @@ fn attitude(outputs: &Outputs) -> Quaternion {
 
 /// On the ground under the aircraft, to whole steps: what repeats every step seems to stand still.
 fn under(outputs: &Outputs, step_m: f64) -> [f32; 3] {
-    let Vec3 { x, y, z, .. } = PathPoint::new(outputs).on_ground_m();
+    let Vec3 { x, y, z, .. } = PathPoint::new(outputs, 0).on_ground_m();
     let whole = |along_m: f64| (along_m / step_m).round() * step_m;
     point(Vec3::<Ned>::new(whole(x), whole(y), z))
 }

@@ -1,7 +1,12 @@
 //! The ground: a plane and lines that move with the aircraft in whole steps, and the pad.
 
-use rerun::{LineStrips3D, Mesh3D};
+use engine::Outputs;
+use engine::frames::{Ned, Vec3};
+use engine::math::{cos, sin};
+use engine::units::degrees;
+use rerun::{LineStrips3D, Mesh3D, Points3D, Radius};
 
+use super::columns::point;
 use super::solid::{Point, Solid, ring};
 
 /// Between far lines; the plane moves by as much.
@@ -64,4 +69,73 @@ pub fn pad() -> Mesh3D {
     let bar = [[10.0, -0.4], [17.0, -0.4], [17.0, 0.4], [10.0, 0.4]];
     solid.fan(&bar.map(|[north, east]| [north, east, 0.0]), UP, PAINT);
     solid.mesh()
+}
+
+/// An outline on the ground where a flight began, along the heading that it had there: the ground of a log is a
+/// plane, and of a runway it knows nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct StartMark {
+    on_ground_m: Vec3<Ned>,
+    heading_rad: f64,
+}
+
+impl StartMark {
+    const LENGTH_M: f64 = 300.0;
+    const HALF_WIDTH_M: f64 = 15.0;
+    const BEHIND_M: f64 = 30.0;
+    const STEP_M: f64 = 100.0;
+    /// Above the lines on the ground.
+    const UP_M: f64 = 0.1;
+
+    /// Where this is the first that is seen.
+    pub fn of(outputs: &Outputs) -> Self {
+        let Vec3 { x, y, z, .. } = outputs.position_m;
+        let on_ground_m = Vec3::new(x, y, z + outputs.height_above_ground_m - Self::UP_M);
+        Self { on_ground_m, heading_rad: outputs.euler.heading_rad }
+    }
+
+    fn place(&self, ahead_m: f64, right_m: f64) -> Point {
+        let (s, c) = (sin(self.heading_rad), cos(self.heading_rad));
+        let along = Vec3::new(c * ahead_m - s * right_m, s * ahead_m + c * right_m, 0.0);
+        point(self.on_ground_m + along)
+    }
+
+    /// Its lines, one across at the start and at every hundred metres, and what they are.
+    pub fn drawn(&self) -> (LineStrips3D, Points3D) {
+        let (near, far, side) = (-Self::BEHIND_M, Self::LENGTH_M, Self::HALF_WIDTH_M);
+        let rim = [[near, -side], [far, -side], [far, side], [near, side], [near, -side]];
+        let across = |ahead_m: f64| vec![self.place(ahead_m, -side), self.place(ahead_m, side)];
+        let steps = || (0..3).map(|step| f64::from(step) * Self::STEP_M);
+        let outline = rim.iter().map(|[ahead_m, right_m]| self.place(*ahead_m, *right_m)).collect();
+        let lines = std::iter::once(outline).chain(steps().map(across));
+        let heading_deg = degrees(self.heading_rad).rem_euclid(360.0);
+        let lines = LineStrips3D::new(lines.collect::<Vec<Vec<Point>>>())
+            .with_radii([0.2])
+            .with_colors([PAINT]);
+        let labels = Points3D::new([self.place(0.0, side)])
+            .with_radii([Radius::new_ui_points(2.0)])
+            .with_colors([PAINT])
+            .with_labels([format!("start, heading {heading_deg:03.0}\u{b0}")])
+            .with_show_labels(true);
+        (lines, labels)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_start_is_marked_on_the_ground_along_its_heading() {
+        let mut outputs = Outputs { height_above_ground_m: 5.0, ..Outputs::default() };
+        outputs.position_m = Vec3::new(10.0, 20.0, -5.0);
+        outputs.euler.heading_rad = engine::math::FRAC_PI_2;
+        let mark = StartMark::of(&outputs);
+        let near = |at: Point, wanted: [f32; 3]| {
+            assert!(at.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-3), "{at:?} {wanted:?}");
+        };
+        near(mark.place(0.0, 0.0), [10.0, 20.0, -0.1]);
+        // Eastward, and to the right of it the south.
+        near(mark.place(100.0, 15.0), [-5.0, 120.0, -0.1]);
+    }
 }

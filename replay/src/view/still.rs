@@ -1,10 +1,9 @@
 //! What does not move in the world, and the path at the end.
 
-use engine::Outputs;
 use engine::aircraft::Params as Aircraft;
 use rerun::{
-    GeoLineStrings, GeoPoints, LineStrips3D, Points3D, Radius, RecordingStream,
-    RecordingStreamResult, StateConfiguration, ViewCoordinates,
+    GeoLineStrings, GeoPoints, LineStrips3D, Radius, RecordingStream, RecordingStreamResult,
+    StateConfiguration, ViewCoordinates,
 };
 
 use super::airframe;
@@ -66,7 +65,10 @@ pub fn send_static_scene(
         let (values, colours): (Vec<&str>, Vec<u32>) = mode.values.iter().copied().unzip();
         recording.log_static(
             entity(&mode.path),
-            &StateConfiguration::new().with_values(values).with_colors(colours),
+            &StateConfiguration::new()
+                .with_values(values)
+                .with_labels(mode.labels(aircraft))
+                .with_colors(colours),
         )?;
     }
     Ok(())
@@ -122,23 +124,6 @@ fn send_aircraft(
     Ok(())
 }
 
-/// Marks where nothing after it means anything.
-pub fn send_crash(
-    recording: &RecordingStream,
-    look: &Look,
-    outputs: &Outputs,
-    label: &str,
-) -> RecordingStreamResult<()> {
-    recording.log_static(
-        look.entity("world/crash"),
-        &Points3D::new([point(outputs.position_m)])
-            .with_radii([Radius::new_ui_points(7.0)])
-            .with_colors([0xFF_20_20_FF])
-            .with_labels([format!("{}{label}", look.name)])
-            .with_show_labels(true),
-    )
-}
-
 /// Sends what is known only at the end: the whole path, a strip for each stretch of a configuration.
 pub fn send_path(
     recording: &RecordingStream,
@@ -147,12 +132,12 @@ pub fn send_path(
 ) -> RecordingStreamResult<()> {
     let mut strips: Vec<Vec<Point>> = Vec::new();
     let mut colours: Vec<u32> = Vec::new();
-    for stretch in trail.chunk_by(|a, b| a.colour == b.colour) {
-        let mut strip: Vec<Point> = stretch.iter().map(|at| point(at.position_m)).collect();
-        // It begins where the one before ended.
-        if let Some(joint) = strips.last().and_then(|before| before.last()).copied() {
-            strip.insert(0, joint);
-        }
+    let mut before: Option<&PathPoint> = None;
+    for stretch in trail.chunk_by(|a, b| a.colour == b.colour && a.start == b.start) {
+        // It begins where the one before ended, unless that was of another start.
+        let joint = before.filter(|before| before.start == stretch[0].start);
+        let strip = joint.into_iter().chain(stretch).map(|at| point(at.position_m)).collect();
+        before = stretch.last();
         strips.push(strip);
         colours.push(look.trail(stretch[0].colour, 0xFF));
     }
@@ -170,8 +155,12 @@ pub fn send_path(
     )?;
     recording.log_static(
         look.entity("map/track"),
-        &GeoLineStrings::from_lat_lon([trail.iter().map(PathPoint::degrees)])
-            .with_radii([Radius::new_ui_points(1.5)])
-            .with_colors([look.path | 0xFF]),
+        &GeoLineStrings::from_lat_lon(
+            trail
+                .chunk_by(|a, b| a.start == b.start)
+                .map(|stretch| stretch.iter().map(PathPoint::degrees)),
+        )
+        .with_radii([Radius::new_ui_points(1.5)])
+        .with_colors([look.path | 0xFF]),
     )
 }

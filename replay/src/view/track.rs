@@ -6,7 +6,7 @@ use engine::frames::{Ned, Vec3};
 use engine::inputs::{DeviceEvent, World};
 use logs::cdr;
 use logs::records::TimingRecord;
-use rerun::{LineStrips3D, Scalars, StateChange, TimeColumn};
+use rerun::{LineStrips3D, Scalars, TimeColumn};
 
 use super::airframe::Mounts;
 use super::basics::{Severity, TICKS_PER_ROW, severity};
@@ -18,22 +18,25 @@ use super::field::{Channel, Field};
 use super::fields;
 use super::forces::Places;
 use super::heading;
+use super::lanes::Lanes;
 use super::look::Look;
-use super::modes::{MODES, Seen};
+use super::modes::{MODES, Seen, alarm};
 use super::numbers::{self, Pages, ROWS_PER_PAGE};
 use super::parts::NUMBERS;
 use super::plots::{GRAPHS, Graph, TIMES};
 use super::raw::Raw;
 use super::scene::{PathPoint, send_moving};
-use super::still::{send_crash, send_path};
+use super::scenery::StartMark;
+use super::still::send_path;
 use crate::judgement::Judgement;
 
 /// Rows gathered before they are written, at first: ten seconds, about a megabyte.
 const ROWS_PER_CHUNK: usize = 500;
 /// Later, this by the root of all rows so far: both rows in memory and chunks, each of which rerun's index of the
-/// file keeps some kilobytes for, grow with the root of the flight. Of an hour both together are least at about
-/// this (71 MB at the most; 80 MB with 18).
+/// file keeps some kilobytes for, grow with the root of the flight;
 const ROWS_PER_CHUNK_ROOT: usize = 10;
+/// and no more than these, half a minute: by then the file has as many chunks as are kept an index of.
+const ROWS_PER_CHUNK_MAX: usize = 1500;
 /// The same while it is flown, for the plots: five times in two seconds.
 const ROWS_PER_CHUNK_LIVE: usize = 10;
 /// Of this many rows one makes a piece of the flown line: 10 Hz.
@@ -67,14 +70,18 @@ pub struct Track {
     raw: Raw,
     axes_told: Vec<(u64, u64)>,
     flown_to_m: Option<Vec3<Ned>>,
-    modes: Vec<Option<&'static str>>,
+    lanes: Lanes,
     events: Events,
     trace: corridor::Trace,
     /// What stands above it.
     pub facts: heading::Facts,
     pages: Pages,
-    /// Settings that the last one told, and whether the flight had ended in a crash by then.
-    told: Option<(([&'static str; 2], u64), bool)>,
+    /// When the last one was, the settings that it told, and whether the flight was over by then.
+    told: Option<(u64, ([&'static str; 2], u64), bool)>,
+    /// Where it began.
+    begun: Option<StartMark>,
+    /// Restarts so far.
+    restarts: u32,
     /// Rows drawn so far.
     drawn: usize,
     /// While it is flown, what moves is written row by row, and the rest every few rows.
@@ -99,12 +106,14 @@ impl Track {
             raw: Raw::default(),
             axes_told: Vec::new(),
             flown_to_m: None,
-            modes: vec![None; MODES.len()],
+            lanes: Lanes::new(false),
             events: Events::default(),
             trace: corridor::Trace::new(),
             facts: heading::Facts::new(aircraft),
             pages: Pages::default(),
             told: None,
+            begun: None,
+            restarts: 0,
             drawn: 0,
             live: false,
             trail: Vec::new(),
@@ -114,28 +123,39 @@ impl Track {
 
     /// One that is drawn while it is flown.
     pub fn live(look: Look, aircraft: &Aircraft, own: Vec<(usize, Field)>) -> Self {
-        Self { live: true, ..Self::new(look, aircraft, own) }
+        Self { live: true, lanes: Lanes::new(true), ..Self::new(look, aircraft, own) }
     }
 
-    /// Whoever was told of it is gone: the next one begins with what is now, the path and the events.
+    /// Whoever was told of it is gone: the next one begins with what was and what is, the path and the events.
     pub fn forget(&mut self) {
         self.rows.clear();
         self.times.clear();
         self.axes_told.clear();
         self.flown_to_m = None;
-        self.modes.fill(None);
+        self.pages = Pages::default();
+        self.told = None;
         self.events.forget();
     }
 
-    /// Sends what its own fields are called, and which flight it is.
-    pub fn begin(&self, canvas: &mut Canvas) {
+    /// Sends what its own fields are called, and which flight it is; to a viewer that comes late what was before:
+    /// where it began, the lanes, and where it ended before its end.
+    pub fn begin(&mut self, canvas: &mut Canvas) {
         let sent = fields::send_still(&canvas.recording, &self.look, &self.own);
         canvas.keep(sent);
         if self.is_alone() {
             let sent = numbers::send_still(&canvas.recording, NUMBERS);
             canvas.keep(sent);
         }
-        heading::send(canvas, &self.look, &self.facts);
+        for (tick, words) in self.lanes.write_all(canvas, &self.look) {
+            self.warn(canvas, tick, &words);
+        }
+        self.send_start(canvas);
+        if self.facts.endings().is_empty() {
+            heading::send(canvas, &self.look, &self.facts);
+        }
+        for number in 0..self.facts.endings().len() {
+            self.tell_ending(canvas, number);
+        }
     }
 
     /// Whether it is the only flight of the recording.
@@ -147,9 +167,10 @@ impl Track {
     pub fn push(&mut self, canvas: &mut Canvas, seen: Moment) {
         let outputs = seen.outputs;
         self.raw.add(outputs.tick, seen.events);
-        self.look_for_crash(canvas, outputs);
         if outputs.tick.is_multiple_of(TICKS_PER_ROW) {
             self.draw(canvas, outputs, seen.world);
+        } else {
+            self.look_for_ending(canvas, outputs);
         }
     }
 
@@ -163,26 +184,63 @@ impl Track {
         self.raw.add(tick, events);
     }
 
-    /// Notes when nothing after it means anything.
-    fn look_for_crash(&mut self, canvas: &mut Canvas, outputs: &Outputs) {
-        let Some(what) = self.facts.add(outputs) else { return };
-        let words = format!("{what}: nothing after it means anything");
-        let happened =
-            Happened { tick: outputs.tick, level: Severity::Error, words: &words, number: None };
-        self.event(canvas, happened);
-        self.events.end(outputs.tick, &words);
-        let label = self.facts.crash_words().unwrap_or_default();
-        let sent = send_crash(&canvas.recording, &self.look, outputs, &label);
+    /// Notes when nothing from there on means anything.
+    fn look_for_ending(&mut self, canvas: &mut Canvas, outputs: &Outputs) {
+        if self.facts.add(outputs) {
+            self.tell_ending(canvas, self.facts.endings().len() - 1);
+        }
+    }
+
+    /// Tells one of the endings, and all of them where they are told together.
+    fn tell_ending(&mut self, canvas: &mut Canvas, number: usize) {
+        let ending = self.facts.endings()[number];
+        let words = format!("{}: nothing from here until a restart means anything", ending.name());
+        let level = Severity::Error;
+        self.event(canvas, Happened { tick: ending.tick, level, words: &words, number: None });
+        self.events.end(ending.tick, &words);
+        if let Some(tick) = ending.until {
+            self.events.resume(tick);
+        }
+        self.mark_endings(canvas);
+    }
+
+    /// In space, and above the flight.
+    fn mark_endings(&self, canvas: &mut Canvas) {
+        let sent = heading::send_endings(&canvas.recording, &self.look, self.facts.endings());
         canvas.keep(sent);
         heading::send(canvas, &self.look, &self.facts);
+    }
+
+    /// Another state took the place of the one at a tick: the flight goes on elsewhere, and if it was over, it is
+    /// not any more.
+    pub fn restart(&mut self, canvas: &mut Canvas, tick: u64) {
+        self.flush(canvas);
+        if self.go_on_from(tick) {
+            self.mark_endings(canvas);
+        }
+    }
+
+    /// The same while nobody looks on; whether it was over.
+    pub fn go_on_from(&mut self, tick: u64) -> bool {
+        self.flown_to_m = None;
+        self.restarts += 1;
+        self.events.resume(tick);
+        self.facts.restart(tick)
     }
 
     /// Draws a row.
     pub fn draw(&mut self, canvas: &mut Canvas, outputs: &Outputs, world: &World) {
         canvas.reach(outputs.tick);
-        self.look_for_crash(canvas, outputs);
-        self.remember(outputs);
-        self.show_modes(canvas, outputs, world);
+        self.look_for_ending(canvas, outputs);
+        let is_first = self.begun.is_none();
+        let changed = self.remember(outputs, world);
+        if is_first {
+            self.send_start(canvas);
+        }
+        Lanes::write(canvas, &self.look, outputs.tick, &changed);
+        for words in changed.iter().filter_map(|(lane, value)| alarm(&MODES[*lane], value)) {
+            self.warn(canvas, outputs.tick, &words);
+        }
         self.rows.push(*outputs);
         self.tell_numbers(outputs);
         self.drawn += 1;
@@ -195,21 +253,44 @@ impl Track {
         }
     }
 
-    /// Numbers at the cursor: at round times, and at once where a setting changes or the flight ends in a crash.
+    /// Numbers at the cursor: at round times, and at once where a setting changes or the flight is over.
     fn tell_numbers(&mut self, outputs: &Outputs) {
-        let crash = self.facts.crash_words();
-        let now = (numbers::settings(outputs), crash.is_some());
-        let is_round = outputs.tick.is_multiple_of(TICKS_PER_ROW * ROWS_PER_PAGE);
-        if self.is_alone() && (is_round || self.told != Some(now)) {
-            self.pages.add(outputs.tick, numbers::page(outputs, crash.as_deref()));
+        const PAGE_TICKS: u64 = TICKS_PER_ROW * ROWS_PER_PAGE;
+        let over = self.facts.over().map(heading::Ending::words);
+        let now = (outputs.tick / PAGE_TICKS, numbers::settings(outputs), over.is_some());
+        if self.is_alone() && self.told != Some(now) {
+            self.pages.add(outputs.tick, numbers::page(outputs, over.as_deref()));
             self.told = Some(now);
         }
     }
 
-    /// Adds to the whole path.
-    pub fn remember(&mut self, outputs: &Outputs) {
+    /// Takes what was seen and is not drawn.
+    pub fn miss(&mut self, outputs: &Outputs, world: &World) {
+        self.facts.add(outputs);
+        self.remember(outputs, world);
+    }
+
+    /// Adds to the whole path, and to what lanes showed; which of these changed.
+    fn remember(&mut self, outputs: &Outputs, world: &World) -> Vec<(usize, &'static str)> {
+        self.begun.get_or_insert_with(|| StartMark::of(outputs));
         self.follow(outputs);
-        self.trace.add(outputs, &self.aircraft);
+        self.trace.add(outputs, &self.aircraft, self.restarts);
+        self.lanes.see(Seen { outputs, world, aircraft: &self.aircraft })
+    }
+
+    /// Marks where it began, on the ground that goes with it.
+    fn send_start(&self, canvas: &mut Canvas) {
+        let Some(begun) = self.begun.filter(|_| self.look.ground) else { return };
+        let (lines, labels) = begun.drawn();
+        let sent = canvas.recording.log_static(self.look.entity("world/start"), &lines);
+        canvas.keep(sent);
+        let sent = canvas.recording.log_static(self.look.entity("world/start/labels"), &labels);
+        canvas.keep(sent);
+    }
+
+    /// Notes what a lane may be too short to say.
+    fn warn(&mut self, canvas: &mut Canvas, tick: u64, words: &str) {
+        self.event(canvas, Happened { tick, level: Severity::Warning, words, number: None });
     }
 
     /// Takes how a tick kept time: of those of a row the latest is drawn, and every one with an input of
@@ -272,27 +353,17 @@ impl Track {
 
     /// Adds to the path when the aircraft has moved on.
     pub fn follow(&mut self, outputs: &Outputs) {
-        let moved_m = self.trail.last().map(|last| (outputs.position_m - last.position_m).norm());
-        if moved_m.is_some_and(|moved_m| moved_m < self.trail_spacing_m) {
+        let moved = self.trail.last().is_none_or(|last| {
+            let moved_m = (outputs.position_m - last.position_m).norm();
+            moved_m >= self.trail_spacing_m || last.start != self.restarts
+        });
+        if !moved {
             return;
         }
-        self.trail.push(PathPoint::new(outputs));
+        self.trail.push(PathPoint::new(outputs, self.restarts));
         if self.trail.len() > PATH_POINTS_MAX {
             self.trail = self.trail.iter().copied().step_by(2).collect();
             self.trail_spacing_m *= 2.0;
-        }
-    }
-
-    /// Writes the modes that changed.
-    fn show_modes(&mut self, canvas: &mut Canvas, outputs: &Outputs, world: &World) {
-        for (index, mode) in MODES.iter().enumerate() {
-            let value = mode.of(Seen { outputs, world, aircraft: &self.aircraft });
-            if self.modes[index] == Some(value) {
-                continue;
-            }
-            self.modes[index] = Some(value);
-            let columns = StateChange::single(value).columns_of_unit_batches().map(Vec::from_iter);
-            canvas.send(&self.look.entity(&mode.path), &times(&[outputs.tick]), columns);
         }
     }
 
@@ -367,7 +438,7 @@ impl Track {
 
 /// Rows to be gathered when so many are drawn.
 fn gathered(drawn: usize) -> usize {
-    ROWS_PER_CHUNK.max(ROWS_PER_CHUNK_ROOT * drawn.isqrt())
+    (ROWS_PER_CHUNK_ROOT * drawn.isqrt()).clamp(ROWS_PER_CHUNK, ROWS_PER_CHUNK_MAX)
 }
 
 /// Writes rows of graphs: each as one entity with as many values in a row as it has lines.
@@ -405,14 +476,13 @@ mod tests {
     }
 
     #[test]
-    fn chunks_and_rows_in_memory_grow_with_the_root_of_the_flight() {
-        const HOUR: usize = 180_000;
-        let (short, _) = chunks(HOUR / 4);
-        let (long, longest) = chunks(HOUR);
-        // Four times as long, twice as much; ten seconds each would be 360.
-        assert!(long <= 2 * short + 8 && long < 100, "{short}, {long}");
-        assert!(longest < 4300, "{longest}");
+    fn rows_in_memory_grow_with_the_root_of_the_flight_up_to_half_a_minute() {
         // The first ones are short.
         assert_eq!(chunks(1500), (3, 500));
+        // Ten minutes, an hour, a day.
+        assert_eq!(chunks(30_000).1, 1500);
+        let (hour, longest) = chunks(180_000);
+        assert!(longest == 1500 && hour < 130, "{longest}, {hour}");
+        assert_eq!(chunks(24 * 180_000).1, 1500);
     }
 }
