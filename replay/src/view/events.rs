@@ -233,7 +233,7 @@ fn lane(
 mod tests {
     use super::*;
 
-    fn told<'a>(changes: &'a [(u64, String)]) -> Vec<(u64, &'a str)> {
+    fn told(changes: &[(u64, String)]) -> Vec<(u64, &str)> {
         changes.iter().map(|(tick, words)| (*tick, words.as_str())).collect()
     }
 

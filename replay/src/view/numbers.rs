@@ -68,8 +68,11 @@ fn words(page: &mut String, outputs: &Outputs) {
     let _ = writeln!(page, " {nacelles} | {flaps_deg:.0}° | {gear} |");
 }
 
+/// The modes and the flap's detent.
+pub type Settings = ([&'static str; 2], u64);
+
 /// What a reader would not want to see late: what flies, how the flaps and the gear stand.
-pub fn settings(outputs: &Outputs) -> ([&'static str; 2], u64) {
+pub fn settings(outputs: &Outputs) -> Settings {
     (modes::words(outputs), outputs.cockpit.flap_detent)
 }
 

@@ -106,7 +106,12 @@ fn words(chunks: &[Chunk], entity: &str, component: &ComponentDescriptor) -> Vec
     for chunk in chunks.iter().filter(|chunk| *chunk.entity_path() == entity.into()) {
         let all = chunk.iter_slices::<String>(component.component);
         let said: Vec<String> = all
-            .map(|row| row.iter().map(|one| one.as_str()).collect::<Vec<_>>().join("; "))
+            .map(|row| {
+                row.iter()
+                    .map(rerun::external::re_sdk_types::ArrowString::as_str)
+                    .collect::<Vec<_>>()
+                    .join("; ")
+            })
             .collect();
         if said.is_empty() {
             continue;

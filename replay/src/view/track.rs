@@ -77,7 +77,7 @@ pub struct Track {
     pub facts: heading::Facts,
     pages: Pages,
     /// When the last one was, the settings that it told, and whether the flight was over by then.
-    told: Option<(u64, ([&'static str; 2], u64), bool)>,
+    told: Option<(u64, numbers::Settings, bool)>,
     /// Where it began.
     begun: Option<StartMark>,
     /// Restarts so far.
