@@ -8,7 +8,7 @@ use engine::inputs::{DeviceEvent, EventKind};
 use indicatif::{ProgressBar, ProgressStyle};
 use logs::text::at;
 use logs::units::with_unit;
-use replay::{Diff, Extent, FileDifference, KeyDifference, Side, Stage, Which, diff};
+use replay::{Diff, Extent, FileDifference, KeyDifference, Side, Stage, Which, diff, differing};
 use serde_json::{Value, json};
 
 use crate::json;
@@ -86,7 +86,7 @@ fn tell(args: &Args, diff: &Diff) {
     for FileDifference { name, keys } in &diff.files {
         match keys.len() {
             0 => say!("{name}: not the same text, but the same values"),
-            count => say!("{name}: {count} values differ"),
+            count => say!("{name}: {}", differing(count, "value")),
         }
         some(keys, most, |KeyDifference { key, a, b }| {
             say!("  {key}: {} in A, {} in B", or_none(a.as_deref()), or_none(b.as_deref()));
@@ -168,7 +168,7 @@ fn tell_inputs(diff: &Diff, most: usize) {
         say!("  B         {}", event(first.b.as_ref()));
     }
     if !diff.world.is_empty() {
-        say!("world: {} fields differ", diff.world.len());
+        say!("world: {}", differing(diff.world.len(), "field"));
         some(&diff.world, most, tell_extent);
     }
     if diff.events.ticks == 0 && diff.world.is_empty() {
@@ -189,7 +189,7 @@ fn tell_states(diff: &Diff, most: usize) {
         say!("states: the same to the bit");
         return;
     };
-    say!("states: {} fields differ, first at {}", diff.state.len(), at(first.tick));
+    say!("states: {}, first at {}", differing(diff.state.len(), "field"), at(first.tick));
     if diff.parts_at_start() {
         say!("  stage     none: they begin with it");
     } else {
@@ -206,7 +206,7 @@ fn tell_states(diff: &Diff, most: usize) {
     }
     let ulps = first.recorded.ulps_to(first.reflown);
     say!("  apart     {} ULP", ulps.map_or("?".into(), |ulps| ulps.to_string()));
-    say!("  others    {} more fields differ at this tick", first.others);
+    say!("  others    {} at this tick", differing(first.others, "more field"));
     if let Some(input) = &first.last_input {
         say!("  last input of A: {input}");
     }

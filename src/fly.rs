@@ -30,9 +30,8 @@ pub struct Args {
     /// Fly with the sticks that are plugged in
     #[arg(long)]
     stick: bool,
-    /// Let a pilot model fly: hover, demo, takeoff, convert, turn, reconvert, land, sideways,
-    /// sweep-pitch, sweep-roll, sweep-yaw, sweep-lever
-    #[arg(long, value_name = "NAME")]
+    /// Let a pilot model fly
+    #[arg(long, value_name = "NAME", long_help = plan::pilots_in_words())]
     pilot: Option<String>,
     /// Play the timed events of a file
     #[arg(long, value_name = "FILE")]
@@ -113,7 +112,7 @@ pub fn run(args: &Args) -> Result<Status> {
     let virtual_hands = args.pilot.is_some() || args.script.is_some();
     if !args.stick && !args.keyboard && !virtual_hands && !args.flightgear_controls {
         bail!(
-            "nobody flies: give --stick, --keyboard, --flightgear-controls, --script FILE or --pilot NAME, one of{}",
+            "nobody flies: give --stick, --keyboard, --flightgear-controls, --script FILE or --pilot NAME, one of {}",
             pilot_names()
         );
     }

@@ -186,8 +186,13 @@ pub fn write(path: &Path, text: &str, inputs: &[&Path]) -> Result<(), LogError> 
 /// Says before any work what [`Output::beside`] would refuse.
 ///
 /// # Errors
-/// When the file is one of `inputs`, exists and `force` is not set, or is being flown.
+/// When the file is one of `inputs`, exists and `force` is not set, or is being flown; when it is called `-`, which means
+/// standard output elsewhere: nothing here is written there.
 pub fn refuse(path: &Path, force: bool, inputs: &[&Path]) -> Result<(), LogError> {
+    if path.as_os_str() == "-" {
+        let why = "standard output is for words; give a file, or ./- for one of that name";
+        return Err(LogError::create(path, io::Error::new(io::ErrorKind::InvalidInput, why)));
+    }
     let target = followed(path);
     let Ok(there) = fs::symlink_metadata(&target) else { return Ok(()) };
     if there.is_dir() {

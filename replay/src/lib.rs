@@ -44,3 +44,4 @@ pub use summary::{At, Gathered, Summary, Touchdown, summary};
 pub use ticks::Irregular;
 pub use verify::{Options, THREADS_MAX, Verdict, verify, verify_while};
 pub use versions::Versions;
+pub use words::differing;

@@ -62,6 +62,14 @@ fn apart(recorded: Value, reflown: Value) -> String {
     recorded.ulps_to(reflown).map_or("?".into(), |ulps| ulps.to_string())
 }
 
+/// How many differ: `1 field differs`, `2 fields differ`.
+pub fn differing(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what} differs"),
+        _ => format!("{count} {what}s differ"),
+    }
+}
+
 fn counted(stages: &[(Stage, u64)]) -> String {
     let each: Vec<_> =
         stages.iter().map(|(stage, number)| format!("{} {number}", stage.name())).collect();
@@ -111,8 +119,8 @@ impl fmt::Display for Divergence {
         writeln!(f, "  apart     {} ULP", apart(self.recorded, self.reflown))?;
         writeln!(
             f,
-            "  others    {} more fields differ at this tick; by stage: {}",
-            self.others,
+            "  others    {} at this tick; by stage: {}",
+            differing(self.others, "more field"),
             counted(&self.stages)
         )?;
         match &self.last_input {

@@ -259,7 +259,7 @@ impl Plan {
     /// Lets the pilot model of that name fly.
     pub fn set_pilot(&mut self, name: &str, map: &cockpit::Params) -> Result<()> {
         let Some(pilot) = Pilot::named(name, map, &self.flight.aircraft) else {
-            bail!("no pilot model is called `{name}`; there are{}", pilot_names());
+            bail!("no pilot model is called `{name}`; there are {}", pilot_names());
         };
         self.phases = pilot.phases();
         self.flight.controllers.push(Box::new(pilot));
@@ -327,7 +327,15 @@ fn start_position(name: &str) -> Result<&'static str> {
     Ok(text)
 }
 
-/// The pilot models by name, with what each flies.
+/// The pilot models with what each flies, for the help.
+pub fn pilots_in_words() -> String {
+    let lines: Vec<String> =
+        PILOTS.iter().map(|(name, what)| format!("{name:<12} {what}")).collect();
+    format!("Let a pilot model fly:\n{}", lines.join("\n"))
+}
+
+/// The pilot models by name.
 pub fn pilot_names() -> String {
-    PILOTS.iter().map(|(name, what)| format!("\n  {name:<12} {what}")).collect()
+    let names: Vec<&str> = PILOTS.iter().map(|(name, _)| *name).collect();
+    format!("{} (`tiltrotor fly --help` says what each flies)", names.join(", "))
 }

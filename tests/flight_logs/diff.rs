@@ -55,7 +55,7 @@ fn one_bit_is_named_on_both_sides() {
     let log = forged("bit", |log| flip_state_bit(log, 700, "plant.angular_rate_radps.y"));
     diff(flight(), &log)
         .ends(DIVERGED)
-        .says("states: 1 fields differ, first at tick 700 (2.800 s)")
+        .says("states: 1 field differs, first at tick 700 (2.800 s)")
         .says("  field     plant.angular_rate_radps.y")
         .says("  apart     1 ULP")
         .says("rad/s")
@@ -96,7 +96,7 @@ fn the_keys_of_other_files_are_named() {
     });
     diff(flight(), &log)
         .ends(DIVERGED)
-        .says("aircraft.toml: 1 values differ")
+        .says("aircraft.toml: 1 value differs")
         .says("mast_length_ft.value: 4.667 in A, 4.668 in B")
         .says("cockpit.toml: not the same text, but the same values")
         .says("states: the same to the bit");
@@ -112,7 +112,7 @@ fn other_inputs_are_told_apart_from_other_states() {
     });
     diff(flight(), &log)
         .ends(DIVERGED)
-        .says("world: 1 fields differ")
+        .says("world: 1 field differs")
         .says("world.wind_mps.y: 5.000e0 m/s at tick 601")
         .says("device events: not the same in 1 ticks")
         .says("states: the same to the bit");
