@@ -93,7 +93,7 @@ fn of_two_fields_the_one_whose_stage_comes_first_is_named() {
     verify(&log)
         .ends(DIVERGED)
         .says("  field     rate.engines.fuel_kg_per_s")
-        .says("1 more fields differ at this tick; by stage: engines 1, integration 1");
+        .says("1 more field differs at this tick; by stage: engines 1, integration 1");
 }
 
 #[test]
