@@ -44,6 +44,7 @@ step notebooks "the notebooks of python/notebooks, from top to bottom" 'tests/py
 step pilot-matrix "every pilot model from every start that the command offers" tests/pilot_matrix.sh
 step pilots "pilot models in wind and turbulence" tests/pilots.sh
 step ten-thousand "ten thousand random flights" "nice -n 15 tests/ten_thousand.sh"
+step mutants "a sample of small changes to the code: would the tests notice?" tests/mutants.sh
 step rerun "a flight seen in the rerun viewer" \
     'cargo run --release -- demo --fast --force --no-flightgear --out target/full/demo.mcap &&
     cargo run --release -- view target/full/demo.mcap --force --save target/full/demo.rrd &&
