@@ -25,7 +25,7 @@ force it (then it is *checked twice*). Only predictions say how far to trust the
 curve counts as a number, and so do gain and phase at one frequency.
 
 Speeds are true, at sea level on a standard day, gross weight 13,000 lb, unless a case says otherwise.
-Stick is in inches from the aft stop, neutral at 4.8. Power is that of both rotors.
+Stick is in inches from the aft stop, neutral at 4.8. Power is that of both rotors. There is no case 18.
 ";
 
 const FOOT: &str = "
