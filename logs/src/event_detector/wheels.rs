@@ -53,7 +53,8 @@ impl Told {
             self.contact = before.measured();
             self.landing(writer, state.tick)?;
         }
-        if (seen.validity - before.validity).contains(Validity::HULL) {
+        // A wreck that bounces falls no second time.
+        if !self.wrecked && (seen.validity - before.validity).contains(Validity::HULL) {
             impact(writer, state.tick, 2, before.measured(), "structural contact: the hull")?;
             self.wrecked = true;
         }
