@@ -353,3 +353,38 @@ fn a_named_input_is_never_skipped() {
     assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs").success());
     tiltrotor(&["verify", text(&logs)]).refused().says("pipe.mcap: neither a file nor a folder");
 }
+
+/// `-` is standard output elsewhere, and here it would be a file that nobody looks for.
+#[test]
+fn a_dash_is_no_name_for_a_result() {
+    let place = folder("outputs-dash");
+    let log = place.join("log.mcap");
+    fly(&log, "0.1", &[]).ends(OK);
+    for verb in [
+        vec!["report", text(&log), "--out", "-"],
+        vec!["log", "compact", text(&log), "--out", "-"],
+        vec![
+            "fly",
+            "--pilot",
+            "hover",
+            "--fast",
+            "--no-flightgear",
+            "--duration",
+            "1",
+            "--out",
+            "-",
+        ],
+    ] {
+        said(command(&verb).current_dir(&place)).refused().says("standard output is for words");
+        assert!(!place.join("-").exists(), "{verb:?}");
+    }
+    said(command(&["report", text(&log), "--out", "./-"]).current_dir(&place)).ends(OK);
+    assert!(place.join("-").exists());
+}
+
+#[test]
+fn an_export_without_a_form_names_both() {
+    let log = folder("outputs-form").join("log.mcap");
+    fly(&log, "0.1", &[]).ends(OK);
+    tiltrotor(&["log", "export", text(&log)]).refused().says("--csv DIR, --parquet DIR or both");
+}
