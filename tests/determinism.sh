@@ -29,7 +29,8 @@ build headless --release
 release=target/headless/release/tiltrotor
 if [ "$whole" = whole ]; then
     build headless --config profile.dev.package.engine.opt-level=0 \
-        --config profile.dev.package.logs.opt-level=0
+        --config profile.dev.package.logs.opt-level=0 \
+        --config profile.dev.package.flightgear-package.opt-level=0
     debug=target/headless/debug/tiltrotor
     CARGO_TARGET_DIR=target/native "${for_this_cpu[@]}" cargo build --quiet "${headless[@]}" --release
     native=target/native/release/tiltrotor

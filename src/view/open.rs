@@ -23,7 +23,7 @@ pub fn run(args: &Args) -> Result<Status> {
     let inputs: Vec<&Path> =
         [Some(&args.log), args.against.as_ref()].into_iter().flatten().map(|f| &**f).collect();
     for log in &inputs {
-        logs::Messages::open(log, replay::OPEN).with_context(|| log.display().to_string())?;
+        logs::open(log, replay::OPEN).with_context(|| log.display().to_string())?;
     }
     // Better now than after a minute of drawing.
     let viewer = match args.save {

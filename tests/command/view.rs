@@ -211,6 +211,18 @@ fn layouts_and_places_to_open_at_are_read_before_anything_is_drawn() {
     with(&["--layout", "cockpit", "--save", text(&saved)]).refused().says("pilot, engineer");
     with(&["--layout", "compare", "--save", text(&saved)]).refused().says("--against");
     with(&["--at", "event:x"]).refused().says("first-difference");
+    // A wrong file is told before a viewer that is not there.
+    let no_log = place.join("text.mcap");
+    fs::write(&no_log, "words").expect("a file");
+    let viewer = ["--viewer", "/nowhere/rerun"];
+    for arguments in
+        [&["view", text(&no_log)][..], &["view", text(&log), "--against", text(&no_log)]]
+    {
+        tiltrotor(&[arguments, &viewer].concat())
+            .refused()
+            .says("text.mcap")
+            .says("not a flight log");
+    }
     let own = place.join("own.toml");
     fs::write(&own, "[[tab]]\nname = \"A\"\n[[tab.view]]\nfields = [\"thrust\"]\n")
         .expect("a file");
