@@ -147,6 +147,9 @@ fn within(file: &str, node: &Node, (min, max): (f64, f64)) -> Result<(), ConfigE
         Value::Array(nodes) => nodes.iter().try_for_each(|node| within(file, node, (min, max))),
         value => match value.number() {
             Some(found) if found < min || found > max => {
+                // As whoever wrote the key counts.
+                let (_, factor) = units::to_si(&node.key);
+                let [min, max, found] = [min, max, found].map(|si| si / factor);
                 Err(error(file, node, Problem::OutOfRange { min, max, found }))
             }
             _ => Ok(()),

@@ -101,13 +101,13 @@ pub enum Problem {
     #[error("expected a finite number, found {0}")]
     NotFinite(String),
     /// A number the engine could not work with.
-    #[error("expected {min:?} to {max:?} in SI units, found {found:?}")]
+    #[error("expected {} to {}, found {}", figure(*min), figure(*max), figure(*found))]
     OutOfRange {
-        /// Least.
+        /// Least, in the unit of the key.
         min: f64,
-        /// Greatest.
+        /// Greatest, in the unit of the key.
         max: f64,
-        /// Found, in SI units.
+        /// Found, in the unit of the key.
         found: f64,
     },
     /// Another number than the one that the model fixes.
@@ -130,6 +130,13 @@ pub enum Problem {
     /// Anything else, in its own words.
     #[error("{0}")]
     Other(String),
+}
+
+/// A number in four figures.
+fn figure(number: f64) -> String {
+    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    let is_plain = number == 0.0 || (1e-3..1e6).contains(&number.abs());
+    if is_plain { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 /// The hint that a key may carry another unit, where one of the keys has one.

@@ -296,6 +296,7 @@ fn what_if_flies_the_same_hands_on_another_aircraft() {
     assert_eq!(info.after("parent "), "flight.mcap");
     assert_eq!(info.after("made_by "), "whatif");
     assert_eq!(info.after("parent_from_tick "), "3000");
+    assert!(info.out.contains("pilot model "), "its inputs are the pilot's: {info}");
     let (was, is) = (states(flight(), 3000, 7500), states(&out, 3000, 7500));
     assert_eq!(was.len(), is.len());
     assert_eq!(is[0].state.tick, 3001, "the parent's time");
@@ -325,7 +326,7 @@ fn what_if_refuses_what_is_no_number_of_the_aircraft() {
     whatif("fcc.travel.pedals_in=2").says("did you mean fcc.travel.pedal_in");
     whatif("fcc.travel.pedal_in=fast").says("not a value");
     whatif("fcc.travel.pedal_in=\"2\"").says("expected a number");
-    whatif("rotors.radius_ft=-2").says("aircraft.toml:").says("rotors.radius_ft: expected 1e-6 to");
+    whatif("rotors.radius_ft=-2").says("aircraft.toml:").says("rotors.radius_ft: expected 3.281e-6 to");
     whatif("fcc.travel.pedal_in").says("KEY=VALUE");
     whatif("fcc.travel=2").says("table of keys");
     assert!(!out.exists());

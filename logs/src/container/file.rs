@@ -312,6 +312,7 @@ fn in_words(error: &McapError) -> String {
         McapError::UnexpectedEof => "a length: it points beyond the end",
         McapError::BadMagic => "the last bytes",
         McapError::BytesAfterEndMagic => return "bytes after the end".into(),
+        McapError::Parse(_) => "a record",
         error => return error.to_string(),
     };
     format!("{what} is not as written ({error})")

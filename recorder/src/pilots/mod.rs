@@ -119,7 +119,7 @@ fn plan(name: &str, on_wheels: bool) -> Option<Vec<(&'static str, Phase)>> {
         "demo" => {
             if on_wheels {
                 let hover = ("hover", Phase::Hold { seconds: 3.0 });
-                plan.splice(2..2, [hover, ("marker", Phase::Mark)]);
+                plan.splice(2..2, [hover, ("marker button", Phase::Mark)]);
             }
             plan.extend([
                 ("conversion", Phase::Convert { to: Speed::Circuit }),

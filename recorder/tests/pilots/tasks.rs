@@ -198,7 +198,7 @@ fn the_demonstration_takes_off_converts_turns_reconverts_and_lands_where_it_bega
         "on the ground",
         "take-off",
         "hover",
-        "marker",
+        "marker button",
         "acceleration",
         "conversion",
         "climb",
