@@ -81,12 +81,7 @@ impl Margins {
         if self.torque_norm_max.is_none_or(|(most, _)| torque_norm > most) {
             self.torque_norm_max = Some((torque_norm, tick));
         }
-        let on_wheels = outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
-        if on_wheels || outputs.height_above_ground_m <= engine::envelope::CORRIDOR_HEIGHT_M {
-            return;
-        }
-        let tilt_rad = outputs.actuators.mast_tilt_rad.mean();
-        let margin_mps = envelope.corridor.margin_mps(tilt_rad, outputs.calibrated_airspeed_mps);
+        let Some(margin_mps) = envelope.corridor.margin_in_flight_mps(outputs) else { return };
         if self.corridor_mps_min.is_none_or(|(least, _)| min(least, margin_mps) < least) {
             self.corridor_mps_min = Some((margin_mps, tick));
         }

@@ -15,12 +15,19 @@ use serde::Deserialize;
 
 use crate::controls::FLAP_DETENT_LAST;
 use crate::math::min;
+use crate::outputs::Outputs;
 use crate::table::axis::{MastTilt, RotorSpeed};
 use crate::table::{Invalid, Table1, all_valid};
 
 /// Not higher than this above the ground the corridor is not asked for, m: what the wing does there is the
 /// ground's affair.
 pub const CORRIDOR_HEIGHT_M: f64 = 5.0;
+
+/// Whether it flies so high that the corridor is asked for: off its main wheels, above [`CORRIDOR_HEIGHT_M`].
+pub fn is_clear_of_ground(outputs: &Outputs) -> bool {
+    let on_wheels = outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
+    !on_wheels && outputs.height_above_ground_m > CORRIDOR_HEIGHT_M
+}
 
 /// Where the aircraft is flown, and where the model holds.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -66,6 +73,13 @@ impl Corridor {
         // As a helicopter there is no slowest speed: flying backwards is no way out.
         let above = if slowest_mps > 0.0 { calibrated_airspeed_mps - slowest_mps } else { below };
         min(below, above)
+    }
+
+    /// The same of what is seen at a tick, m/s; `None` on the wheels or not higher than [`CORRIDOR_HEIGHT_M`].
+    pub fn margin_in_flight_mps(&self, outputs: &Outputs) -> Option<f64> {
+        let tilt_rad = outputs.actuators.mast_tilt_rad.mean();
+        is_clear_of_ground(outputs)
+            .then(|| self.margin_mps(tilt_rad, outputs.calibrated_airspeed_mps))
     }
 
     /// Mast tilts at which one of the limits has a corner, ascending: what lies between is straight.

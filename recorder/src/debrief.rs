@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use engine::envelope::{CORRIDOR_HEIGHT_M, Params as Envelope};
+use engine::envelope::{Params as Envelope, is_clear_of_ground};
 use engine::frames::Euler;
 use engine::math::{sqrt, square};
 use engine::outputs::Validity;
@@ -107,7 +107,7 @@ impl Debrief {
             self.flown = false;
         }
         self.validity |= outputs.validity;
-        let flying = !now.on_wheels && outputs.height_above_ground_m > CORRIDOR_HEIGHT_M;
+        let flying = is_clear_of_ground(outputs);
         let (tilt_rad, cas_mps) =
             (outputs.actuators.mast_tilt_rad.mean(), outputs.calibrated_airspeed_mps);
         let outside_mps = -envelope.corridor.margin_mps(tilt_rad, cas_mps);

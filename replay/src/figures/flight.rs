@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use engine::aircraft::Params as Aircraft;
-use engine::envelope::{CORRIDOR_HEIGHT_M, Corridor};
+use engine::envelope::{Corridor, is_clear_of_ground};
 use engine::frames::{Ned, Vec3};
 use engine::math::{TAU, max, wrap_angle};
 use engine::pair::Pair;
@@ -108,7 +108,6 @@ pub struct Row {
 impl Row {
     fn of(outputs: &Outputs, heading_rad: f64) -> Self {
         let (o, cockpit, actuators) = (outputs, &outputs.cockpit, &outputs.actuators);
-        let on_wheels = o.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
         Self {
             time_s: o.tick as f64 * STEP_S,
             position_m: o.position_m,
@@ -133,7 +132,7 @@ impl Row {
             flapping_aft_rad: o.rotors.map(|rotor| rotor.tilt_aft_rad),
             rotor_speed_radps: o.rotor_speed_radps,
             power_w: o.engines.power_w,
-            flying: !on_wheels && o.height_above_ground_m > CORRIDOR_HEIGHT_M,
+            flying: is_clear_of_ground(o),
         }
     }
 
