@@ -133,6 +133,7 @@ pub fn run(args: &Args) -> Result<Status> {
     if let Some(path) = &args.script {
         let text = read(path)?;
         plan.flight.controllers.push(Box::new(Script::parse(&name_of(path), &text, &map)?));
+        plan.flown_by(&format!("script {}", path.file_name().unwrap_or_default().display()));
     }
     if args.flightgear_controls {
         plan.add_flightgear(&mut map)?;
@@ -142,6 +143,9 @@ pub fn run(args: &Args) -> Result<Status> {
     if plan.panel {
         // Whoever else flies: freeze, reset, failures and weather are on keys.
         plan.add_keyboard(&mut map)?;
+        if args.keyboard {
+            plan.flown_by("keyboard");
+        }
     }
     plan.set_map(map)?;
     if let (Some(name), None, true) = (&args.pilot, args.duration, args.common.fast)

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::LogError;
+use crate::devices::DeviceIdentity;
 use crate::records::FORMATS_READ;
 
 /// Name of the metadata record that makes an MCAP file a flight of ours.
@@ -82,6 +83,8 @@ impl Identity {
     pub const RATE: &'static str = "rate_hz";
     /// Key of the wall clock at the start, ns since the Unix epoch.
     pub const STARTED: &'static str = "started_unix_ns";
+    /// Key of who or what moved the controls, in words: a pilot model, a script, the keyboard, devices by name.
+    pub const FLOWN_BY: &'static str = "flown_by";
 
     /// Key of the name of the file that a log was recovered from.
     pub(crate) const RECOVERED_FROM: &'static str = "recovered_from";
@@ -106,6 +109,27 @@ impl Identity {
     pub fn with(mut self, key: &str, value: impl Into<String>) -> Self {
         self.0.insert(key.to_string(), value.into());
         self
+    }
+
+    /// Adds one more that moved the controls.
+    #[must_use]
+    pub fn flown_by(self, who: &str) -> Self {
+        let all = self.0.get(Self::FLOWN_BY).map(|others| format!("{others}, {who}"));
+        self.with(Self::FLOWN_BY, all.unwrap_or_else(|| who.into()))
+    }
+
+    /// Who or what moved the controls; of a log that does not say, what can be told from its input devices.
+    pub fn who(&self, devices: &[DeviceIdentity]) -> String {
+        if let Some(who) = self.0.get(Self::FLOWN_BY) {
+            return who.clone();
+        }
+        let mapped = devices.iter().filter(|device| device.mapped != 0);
+        let mapped: Vec<&str> = mapped.map(|device| device.name.as_str()).collect();
+        if mapped.is_empty() {
+            "a pilot model, script or keyboard".into()
+        } else {
+            mapped.join(", ")
+        }
     }
 
     pub(crate) fn refuse_other_versions(&self) -> Result<(), LogError> {

@@ -26,6 +26,9 @@ use crate::waiting::wait;
 /// Ticks between two looks for Ctrl-C: some milliseconds.
 const LOOK_TICKS: u64 = 500;
 
+/// Who flies, in the log.
+const PYTHON: &str = "Python";
+
 /// A flight, stepped by whoever calls.
 #[pyclass(module = "tiltrotor._native")]
 pub struct Flight {
@@ -112,7 +115,9 @@ impl Flight {
             let first_tick = reader.initial.tick;
             stand_at(&mut reader, tick)?;
             let state = reader.initial;
-            let origin = source.marks(names_parent(identity(), &path, &reader, "python"));
+            let origin = source
+                .marks(names_parent(identity(), &path, &reader, "python"))
+                .with(Identity::FLOWN_BY, PYTHON);
             let setup = reader.setup.clone();
             // The world of the tick that begins there; after the last one, that of the last one.
             let mut world = reader.next_tick()?.map(|tick| tick.inputs.world);
@@ -294,7 +299,7 @@ impl Flight {
         let tick = flown.state.tick;
         let identity = match origin {
             Some((from, origin)) if from == tick => origin,
-            _ => identity(),
+            _ => identity().flown_by(PYTHON),
         };
         let name = path.display().to_string();
         flown.record(&path, force, identity, &shape).map_err(|error| told_of(&name, error))

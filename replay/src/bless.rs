@@ -238,7 +238,8 @@ fn refused(what: &str) -> ReplayError {
 fn inherited(identity: Identity, old: &Identity, before: u64) -> Identity {
     use parent::{CHANGES, DIGEST, DIGEST_AT_START, FIRST_BAD_TICK, FROM_TICK, JUDGEMENT};
     use parent::{MADE_BY, NAME, REASON};
-    let kept = [MADE_BY, NAME, DIGEST, DIGEST_AT_START, FROM_TICK, CHANGES, REASON];
+    let kept =
+        [MADE_BY, NAME, DIGEST, DIGEST_AT_START, FROM_TICK, CHANGES, REASON, Identity::FLOWN_BY];
     // What it came from is not clean for being blessed.
     let identity = match (old.0.get(JUDGEMENT), identity.0.get(JUDGEMENT).cloned()) {
         (Some(before), Some(now)) => {

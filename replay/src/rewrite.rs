@@ -71,6 +71,11 @@ pub fn names_parent(identity: Identity, log: &Path, reader: &FlightReader, by: &
     let name = log.file_name().map_or_else(String::new, |name| name.display().to_string());
     let digest =
         logs::closing(log).map_or("unknown".into(), |(_, digest)| format!("{digest:016x}"));
+    // Its inputs are theirs.
+    let identity = match reader.identity.0.get(Identity::FLOWN_BY) {
+        Some(who) => identity.with(Identity::FLOWN_BY, who),
+        None => identity,
+    };
     identity
         .with(parent::MADE_BY, by)
         .with(parent::NAME, name)

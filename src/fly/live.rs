@@ -133,7 +133,7 @@ mod with {
             let title = name.map_or_else(String::new, |name| name.display().to_string());
             let began = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
             let recording_id = format!("tiltrotor-live-{}", began.as_nanos());
-            let flown = vec!["while it is flown".into()];
+            let flown = vec![format!("being flown by {}", flight.identity.who(&[]))];
             Ready {
                 place: self.place,
                 layout: self.layout,

@@ -217,6 +217,12 @@ impl Plan {
         Ok(link)
     }
 
+    /// Notes in the log who flies.
+    pub fn flown_by(&mut self, who: &str) {
+        let identity = std::mem::take(&mut self.flight.identity);
+        self.flight.identity = identity.flown_by(who);
+    }
+
     /// Lets FlightGear's own controls fly.
     pub fn add_flightgear(&mut self, map: &mut cockpit::Params) -> Result<()> {
         let receiver = self.linked.as_ref().and_then(|linked| linked.receiver.clone());
@@ -231,6 +237,7 @@ impl Plan {
         self.flight
             .controllers
             .extend(hand.map(|hand| Box::new(hand) as Box<dyn recorder::Controller>));
+        self.flown_by("FlightGear's controls");
         Ok(())
     }
 
@@ -263,6 +270,7 @@ impl Plan {
         };
         self.phases = pilot.phases();
         self.flight.controllers.push(Box::new(pilot));
+        self.flown_by(&format!("pilot model {name}"));
         Ok(())
     }
 
@@ -307,6 +315,8 @@ impl Plan {
     /// Lets the sticks that are plugged in fly.
     pub fn plug_in(&mut self, map: &mut cockpit::Params, path: Option<&Path>) -> Result<()> {
         self.names = hardware::plug_in(&mut self.flight, map, path)?;
+        let names = self.names.names().join(", ");
+        self.flown_by(&names);
         Ok(())
     }
 }

@@ -82,21 +82,10 @@ fn who(flown: &Afterwards) -> Vec<(String, String)> {
         || "the log does not say".to_string(),
         |time| time.format("%Y-%m-%d %H:%M:%S UTC").to_string(),
     );
-    let mapped: Vec<&str> = flown
-        .devices
-        .iter()
-        .filter(|device| device.mapped != 0)
-        .map(|device| device.name.as_str())
-        .collect();
-    let hands = if mapped.is_empty() {
-        "a pilot model or a script: no device of hardware was mapped".into()
-    } else {
-        mapped.join(", ")
-    };
     let (first, last) = flown.ticks;
     let fact = |name: &str, what: String| (name.to_string(), what);
     vec![
-        fact("Flown with", hands),
+        fact("Flown by", identity.who(&flown.devices)),
         fact("Aircraft", flown.aircraft.clone()),
         fact("Begun", when),
         fact(

@@ -87,6 +87,7 @@ fn a_script_flies_until_it_says_end_and_the_log_is_exact() {
 fn what_a_script_does_is_told_by_log_info() {
     tiltrotor(&["log", "info", text(flight())])
         .ends(OK)
+        .says("flown_by         script flight.toml")
         .says("2.004 s  marker 1")
         .says("3.000 s  failed: left engine, SCAS yaw")
         .says("2.000 s  wind: from ")
