@@ -1,6 +1,6 @@
-"""Changes the code in small ways, one at a time, and sees whether the tests notice: mutants.py COUNT SEED.
+"""Changes the code in small ways, one at a time, and sees whether the tests notice: mutants.py COUNT SEED COMMIT.
 
-The changes are drawn from what `cargo mutants --list` finds. Works in a checkout of its own of the last commit,
+The changes are drawn from what `cargo mutants --list` finds. Works in a checkout of its own of the commit,
 target/mutants/tree; what became of each change is appended to target/mutants/COMMIT-SEED.jsonl, and a run that was
 stopped goes on there. Ends with 1 when less than 92 % of the changes that compile are noticed.
 """
@@ -73,7 +73,7 @@ def fate(tree: Path, change: dict) -> str:
 def main() -> int:
     count, seed = int(sys.argv[1]), int(sys.argv[2])
     WORK.mkdir(parents=True, exist_ok=True)
-    head = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True)
+    head = subprocess.run(["git", "rev-parse", "--short", sys.argv[3]], capture_output=True, text=True, check=True)
     commit, tree = head.stdout.strip(), WORK.resolve() / "tree"
     if not tree.exists():
         subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(tree), commit], check=True)
