@@ -80,7 +80,7 @@ picture engineer "$work/demo.mcap" --layout engineer --at 110
 picture rotor "$work/demo.mcap" --layout rotor --at 30
 # How it kept time is of a flight that waited for the clock.
 "$viewing" fly --pilot takeoff --no-flightgear --no-panel --duration 60 --out "$work/timed.mcap"
-picture latency "$work/timed.mcap" --layout latency --at 30
+picture latency "$work/timed.mcap" --layout latency
 picture compare "$work/calm.mcap" --against "$work/weaker.mcap" --at 23
 picture crash "$work/crash.mcap" --at 6.6
 # While it is flown: what is seen of the stream after a while, at its end.

@@ -74,7 +74,6 @@ mod surfaces;
 mod track;
 
 use engine::aircraft::Params as Aircraft;
-use logs::devices::DeviceIdentity;
 use logs::output::Output;
 use logs::records::TimingRecord;
 
@@ -158,9 +157,9 @@ impl FlightView {
         self.track.judge(&mut self.canvas, tick, judgement);
     }
 
-    /// Notes the input devices of the log.
-    pub fn flown_with(&mut self, devices: &[DeviceIdentity]) {
-        self.track.facts.flown_with(devices);
+    /// Notes who flew.
+    pub fn flown_by(&mut self, who: &str) {
+        self.track.facts.flown_by(who);
     }
 
     /// Writes what is left and closes the file; its size in bytes.

@@ -22,8 +22,9 @@ pub struct Args {
     /// [default: pilot; compare with --against]
     #[arg(long, value_name = "NAME|FILE")]
     pub layout: Option<String>,
-    /// Open there: a time in s (12.5), a tick (3125t), marker:N, event:N, first-difference
-    /// [default: the start; first-difference with --against]
+    /// Open there: a time in s (12.5), a tick (3125t), marker:N, event:N, latest (the tick that was the latest to
+    /// begin), first-difference [default: the start; with --layout latency latest, where there is one; with
+    /// --against first-difference]
     #[arg(long, value_name = "WHEN", allow_hyphen_values = true, conflicts_with = "save")]
     pub at: Option<String>,
     /// Save for the viewer instead of opening it

@@ -13,7 +13,7 @@ use replay::view::{
     About, Comparison, DrawError, FlightView, Layout, Mark, Moment, Other, Own, Stamp,
     draw_against, level,
 };
-use replay::{Facts, Reflight, ReflyOptions, Window};
+use replay::{Facts, Reflight, ReflyOptions, Window, parent};
 
 use crate::identity;
 use crate::status::Status;
@@ -64,8 +64,13 @@ pub fn save_default(log: &Path, saved: &Output) -> Result<u64> {
     Ok(one(log, saved, &Drawing { stamp, layout, window, shift_ticks: 0 })?.0)
 }
 
-/// When a log was flown, in words; empty where it does not say.
+/// When a log was flown, or of which other one it was made, in words; empty where it does not say.
 fn flown(identity: &Identity) -> String {
+    if let Some(by) = identity.0.get(parent::MADE_BY) {
+        let changes = identity.0.get(parent::CHANGES);
+        let changes = changes.map_or_else(String::new, |changes| format!(", {changes}"));
+        return format!("made by {by} of {}{changes}; first flown", identity.get(parent::NAME));
+    }
     let started = identity.get(Identity::STARTED).parse().ok();
     let started = started.map(DateTime::<Utc>::from_timestamp_nanos);
     started.map_or_else(String::new, |at| at.format("flown %Y-%m-%d %H:%M UTC").to_string())
@@ -112,7 +117,7 @@ pub fn one(log: &Path, saved: &Output, drawing: &Drawing) -> Result<(u64, Mark)>
     facts.end_of_reflight(&mut flight, disorder, &drawing.window);
     let judgement = facts.judge();
     view.judge(start_tick, &judgement);
-    view.flown_with(&flight.reader.devices);
+    view.flown_by(&flight.reader.identity.who(&flight.reader.devices));
     say!("{}: {judgement}", log.display());
     for remark in &flight.reader.log_lines {
         view.event(remark.time_ns / STEP_NS, level(remark.level), &remark.words);

@@ -20,6 +20,8 @@ pub enum At {
     Event(u64),
     /// Where something is not the same.
     FirstDifference,
+    /// The tick that was the latest to begin.
+    Latest,
 }
 
 impl FromStr for At {
@@ -28,11 +30,14 @@ impl FromStr for At {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
             format!(
-                "--at {text}: expected seconds (12.5), ticks (3125t), marker:1, event:1 or first-difference"
+                "--at {text}: expected seconds (12.5), ticks (3125t), marker:1, event:1, latest or first-difference"
             )
         };
         if text == "first-difference" {
             return Ok(Self::FirstDifference);
+        }
+        if text == "latest" {
+            return Ok(Self::Latest);
         }
         match text.strip_prefix("event:") {
             Some(number) => match number.parse() {
@@ -61,6 +66,9 @@ impl At {
             Self::FirstDifference => return Ok(Place::FirstDifference),
             Self::When(when) => when.tick(log).with_context(|| log.display().to_string())?,
             Self::Event(number) => event(log, number)?,
+            Self::Latest => latest(log)?.with_context(|| {
+                format!("{}: --at latest: no tick of it waited for the clock", log.display())
+            })?,
         };
         let (first, last) = drawn(log, window)?;
         if !(first..=last).contains(&tick) {
@@ -102,6 +110,24 @@ fn event(log: &Path, number: u64) -> Result<u64> {
             told.len()
         ),
     }
+}
+
+/// The tick that was the latest to begin; `None` where none waited for the clock.
+pub fn latest(log: &Path) -> Result<Option<u64>> {
+    let name = || log.display().to_string();
+    let mut reader = logs::open(log, replay::OPEN).with_context(name)?;
+    reader.states_as_bytes = !reader.is_compacted();
+    let (mut late_ns, mut latest) = (0, None);
+    let mut goes_on = true;
+    while goes_on {
+        goes_on = matches!(reader.next_tick(), Ok(Some(_)));
+        for timing in reader.timings.drain(..) {
+            if timing.late_ns > late_ns {
+                (late_ns, latest) = (timing.late_ns, Some(timing.tick));
+            }
+        }
+    }
+    Ok(latest)
 }
 
 /// First and last tick of what is drawn of a log.
@@ -226,6 +252,7 @@ mod tests {
         assert_eq!(read("marker:2"), Some(At::When(When::Marker(2))));
         assert_eq!(read("event:3"), Some(At::Event(3)));
         assert_eq!(read("first-difference"), Some(At::FirstDifference));
+        assert_eq!(read("latest"), Some(At::Latest));
         for wrong in ["", "event:0", "event:", "event:-1", "lift-off", "-3"] {
             assert_eq!(read(wrong), None, "{wrong}");
         }

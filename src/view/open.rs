@@ -6,13 +6,14 @@ use anyhow::{Context, Result, bail};
 use logs::output::{self, Output};
 use logs::text::{at, size};
 use replay::Window;
-use replay::view::{Mark, Stamp, Standing};
+use replay::view::{Layout, Mark, Stamp, Standing};
 
 use super::args::Args;
 use super::draw::{self, Drawing, layout};
-use super::moment::{Align, At, Place};
+use super::moment::{self, Align, At, Place};
 use super::viewer::Viewer;
 use crate::status::Status;
+use crate::window::When;
 
 /// Draws the log, unless that is done, and shows it.
 pub fn run(args: &Args) -> Result<Status> {
@@ -40,6 +41,12 @@ pub fn run(args: &Args) -> Result<Status> {
         None => 0,
     };
     let beside = args.against.as_deref().map(|other| (other, shift_ticks));
+    let at = match at {
+        None if layout == Layout::Latency && viewer.is_some() && window == Window::default() => {
+            moment::latest(&args.log)?.map(|tick| At::When(When::Tick(tick)))
+        }
+        at => at,
+    };
     let place = at.map(|at| at.place(&args.log, &window, beside)).transpose()?;
     let how = format!("{layout:?} {window:?} {shift_ticks}");
     let drawing = Drawing { stamp: draw::stamp(&inputs, &how)?, layout, window, shift_ticks };

@@ -6,7 +6,6 @@ use engine::inputs::{DeviceEvent, World};
 use engine::math::{PI, TAU, ln};
 use engine::{Aircraft, Inputs, State, observe, step};
 use logs::cdr;
-use logs::devices::DeviceIdentity;
 use logs::output::Output;
 use logs::view::LogLine;
 use rerun::{LineStrips3D, Radius, Scalars, SeriesLines};
@@ -159,17 +158,18 @@ pub fn draw_against(
     }
     let start_tick = first.cursor.start_tick;
     let mut judgements = Vec::new();
-    let (told, devices, judgement) = first.told();
-    page.first.facts.flown_with(&devices);
+    let (told, who, judgement) = first.told();
+    page.first.facts.flown_by(&who);
     page.tell_first(start_tick, &judgement, &told);
     judgements.push(judgement);
     if let Beside::Log(flight) = other {
-        let (told, devices, judgement) = flight.told();
-        page.second.facts.flown_with(&devices);
+        let (told, who, judgement) = flight.told();
+        page.second.facts.flown_by(&who);
         page.tell_second(start_tick, &judgement, &told, how);
         judgements.push(judgement);
     }
-    let mark = Mark { status: status(&judgements), first_difference: page.first_difference };
+    let first_difference = page.first_difference.as_ref().map(|(tick, _)| *tick);
+    let mark = Mark { status: status(&judgements), first_difference };
     page.finish(file, judgements, mark)
 }
 
@@ -215,14 +215,14 @@ impl LoggedFlight {
         Ok(Self { cursor, aircraft, restarts: Vec::new() })
     }
 
-    /// Reads what is left: what was told in it, the input devices, and what it is.
-    fn told(mut self) -> (Vec<LogLine>, Vec<DeviceIdentity>, Judgement) {
+    /// Reads what is left: what was told in it, who flew, and what it is.
+    fn told(mut self) -> (Vec<LogLine>, String, Judgement) {
         while self.cursor.now.is_some() {
             self.cursor.advance();
         }
         let log_lines = std::mem::take(&mut self.cursor.reader.log_lines);
-        let devices = std::mem::take(&mut self.cursor.reader.devices);
-        (log_lines, devices, self.cursor.finish().judgement)
+        let who = self.cursor.reader.identity.who(&self.cursor.reader.devices);
+        (log_lines, who, self.cursor.finish().judgement)
     }
 
     fn first(&self) -> Result<State, ReplayError> {
@@ -256,7 +256,8 @@ struct Page {
     rows: Vec<Row>,
     pages: Pages,
     largest: Largest,
-    first_difference: Option<u64>,
+    /// The first tick where the states are not the same, and what is not.
+    first_difference: Option<(u64, String)>,
 }
 
 /// The differences of one tick.
@@ -396,13 +397,14 @@ impl Page {
             .map(|difference| (Stage::of_state(&difference.name.path), difference))
             .min_by_key(|(stage, difference)| (stage.is_none(), *stage, difference.index));
         if let Some((stage, difference)) = first {
-            self.first_difference = Some(tick);
             let stage = stage.map_or("", Stage::name);
+            let [a, b] = self.names_of_both();
             let words = format!(
-                "first difference: {} ({stage}), {} beside {}",
+                "{} ({stage}), {a} {}, {b} {}",
                 difference.name.path, difference.a, difference.b
             );
-            self.note(tick, Severity::Warning, &words);
+            self.note(tick, Severity::Warning, &format!("first difference: {words}"));
+            self.first_difference = Some((tick, words));
         }
         Ok(())
     }
@@ -447,10 +449,13 @@ impl Page {
         for graph in GRAPHS {
             let to = from + graph.lines.len();
             let values = rows.iter().flat_map(|row| row.plots[from..to].iter().copied());
+            let values: Vec<f64> = values.collect();
+            let entity = format!("delta/{}", graph.entity);
+            self.canvas.see(&entity, values.iter().copied());
             let columns = Scalars::new(values)
                 .columns(std::iter::repeat_n(graph.lines.len(), rows.len()))
                 .map(Vec::from_iter);
-            self.canvas.send(&format!("delta/{}", graph.entity), &times, columns);
+            self.canvas.send(&entity, &times, columns);
             from = to;
         }
         let apart = LineStrips3D::new(rows.iter().map(|row| row.apart));
@@ -471,12 +476,13 @@ impl Page {
         }
         self.first.finish(&mut self.canvas);
         self.second.finish(&mut self.canvas);
-        let page = self.largest.page(self.names_of_both(), self.first_difference);
+        let first_difference = self.first_difference.as_ref().map(|(tick, _)| *tick);
+        let page = self.largest.page(self.names_of_both(), self.first_difference.as_ref());
         self.canvas.write("delta/largest", page);
         let flights = [&self.first, &self.second].map(|track| (&track.look, &track.facts));
         heading::send_two(&mut self.canvas, flights);
         let bytes = file.finish(self.canvas, &mark.name())?;
-        Ok(Drawn { bytes, first_difference: self.first_difference, judgements })
+        Ok(Drawn { bytes, first_difference, judgements })
     }
 }
 

@@ -30,11 +30,7 @@ use super::{corridor, parts};
 
 /// How much of the line behind the aircraft is bright.
 const FLOWN_NS: i64 = 30_000_000_000;
-/// Legends lie over the beginning of a plot: time axes begin before the flight, by this part of it.
-const BEFORE_NORM: f64 = 0.26;
-/// Of two flights, whose lines have longer names in narrower plots.
-const BEFORE_OF_TWO_NORM: f64 = 0.62;
-/// And end after it by this part, so that its last moment is seen.
+/// Time axes end after the flight by this part of it, so that its last moment is seen.
 const AFTER_NORM: f64 = 0.02;
 /// The viewer's place for what all views with a linked time axis share (`GLOBAL_VIEW_ID` in its source).
 const ALL_VIEWS: [u8; 16] = [
@@ -71,7 +67,7 @@ pub fn send(
     let root = page.id();
     let all = page.part(&layout.tree(plan))?;
     page.put_container(root, ContainerKind::Vertical, "Review", &[all], &[])?;
-    page.panels(root, span)?;
+    page.panels(root, span, layout.before_norm(plan))?;
 
     let messages = storage.take();
     let blueprint = messages.iter().find_map(|message| match message {
@@ -131,6 +127,9 @@ impl Page<'_> {
                 self.document("Both at the cursor", &format!("/{}", parts::NUMBERS_OF_TWO))
             }
             Shown::Numbers => self.document("At the cursor", &format!("/{}", parts::NUMBERS)),
+            Shown::NumbersOfRotors => {
+                self.document("Rotors at the cursor", &format!("/{}", parts::NUMBERS_OF_ROTORS))
+            }
             Shown::Document { name, entity } => self.document(name, entity),
         }
     }
@@ -286,7 +285,12 @@ impl Page<'_> {
         Ok(path)
     }
 
-    fn panels(&self, root: Uuid, span: Option<(u64, u64)>) -> RecordingStreamResult<()> {
+    fn panels(
+        &self,
+        root: Uuid,
+        span: Option<(u64, u64)>,
+        before_norm: f64,
+    ) -> RecordingStreamResult<()> {
         let viewport = ViewportBlueprint::new()
             .with_root_container(RootContainer(root))
             .with_auto_layout(false)
@@ -304,7 +308,7 @@ impl Page<'_> {
         }
         self.stream.log("time_panel", &time)?;
         let all = format!("view/{}/TimeAxis", hyphenated(Uuid { bytes: ALL_VIEWS }));
-        self.stream.log(all, &TimeAxis::new().with_view_range(whole(span, self.plan)))
+        self.stream.log(all, &TimeAxis::new().with_view_range(whole(span, before_norm)))
     }
 
     fn id(&mut self) -> Uuid {
@@ -317,12 +321,11 @@ impl Page<'_> {
 }
 
 /// All of a flight, with room for legends before it. Without it the viewer shows a minute around the cursor.
-fn whole(span: Option<(u64, u64)>, plan: &Plan) -> components::TimeRange {
+fn whole(span: Option<(u64, u64)>, before_norm: f64) -> components::TimeRange {
     let Some((first, last)) = span else { return components::TimeRange(TimeRange::EVERYTHING) };
     let ns = |tick: f64| TimeRangeBoundary::Absolute(TimeInt((tick * STEP_NS as f64) as i64));
     let (first, last) = (first as f64, last as f64);
     let length = last - first;
-    let before_norm = if plan.is_comparison() { BEFORE_OF_TWO_NORM } else { BEFORE_NORM };
     let (start, end) = (ns(first - before_norm * length), ns(last + AFTER_NORM * length));
     components::TimeRange(TimeRange { start, end })
 }

@@ -97,6 +97,16 @@ impl Canvas {
         }
     }
 
+    /// Notes values that a graph draws, for its title.
+    pub fn see(&mut self, entity: &str, values: impl Iterator<Item = f64>) {
+        self.plan.see(entity, values);
+    }
+
+    /// Whether the layout has the numbers of both rotors.
+    pub fn shows_rotors(&self) -> bool {
+        self.layout == Layout::Rotor
+    }
+
     /// Notes that a tick is drawn.
     pub fn reach(&mut self, tick: u64) {
         let (first, last) = self.span.unwrap_or((tick, tick));

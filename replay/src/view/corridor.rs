@@ -106,8 +106,9 @@ fn send_grid(recording: &RecordingStream, look: &Look) -> RecordingStreamResult<
             .with_draw_order(0.0),
     )?;
     let labels = speeds_kt
-        .map(|kt| (place(kt, -7.0), format!("{kt:.0} kt")))
-        .chain(angles_deg.map(|deg| (place(-15.0, deg), format!("{deg:.0}°"))));
+        .map(|kt| (place(kt, -4.0), format!("{kt:.0} kt")))
+        // A label hangs below its point.
+        .chain(angles_deg.map(|deg| (place(-15.0, deg + 8.0), format!("{deg:.0}°"))));
     let (at, words): (Vec<_>, Vec<_>) = labels.unzip();
     recording.log_static(
         look.entity("corridor/grid/labels"),
@@ -187,12 +188,7 @@ impl Trace {
 
 /// Whether it is flown outside the corridor; near the ground that is not asked for.
 fn is_outside(outputs: &Outputs, aircraft: &Aircraft) -> bool {
-    let on_wheels = outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
-    if on_wheels || outputs.height_above_ground_m <= engine::envelope::CORRIDOR_HEIGHT_M {
-        return false;
-    }
-    let tilt_rad = outputs.actuators.mast_tilt_rad.mean();
-    aircraft.envelope.corridor.margin_mps(tilt_rad, outputs.calibrated_airspeed_mps) < 0.0
+    aircraft.envelope.corridor.margin_in_flight_mps(outputs).is_some_and(|mps| mps < 0.0)
 }
 
 #[cfg(test)]

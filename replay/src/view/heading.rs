@@ -3,8 +3,8 @@
 use engine::aircraft::Params as Aircraft;
 use engine::frames::{Ned, Vec3};
 use engine::outputs::{Severity, Validity};
+use engine::units::KT_PER_MPS;
 use engine::{Outputs, STEP_NS, STEP_S};
-use logs::devices::DeviceIdentity;
 use logs::records::TimingRecord;
 
 use rerun::{Points3D, Radius, RecordingStream, RecordingStreamResult};
@@ -67,8 +67,12 @@ impl Ending {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Facts {
     aircraft: String,
-    /// Whose hands it was in.
+    /// Who flew.
     hands: String,
+    /// Whether it is still flown: how long it takes is not known.
+    pub live: bool,
+    /// The least margin inside the conversion corridor, m/s, and at which tick.
+    margin_mps: Option<(f64, u64)>,
     /// First and last tick.
     span: Option<(u64, u64)>,
     /// What the log is.
@@ -93,11 +97,16 @@ pub struct Pace {
 }
 
 impl Pace {
+    /// Whether nothing waited for the clock.
+    fn is_fast(self) -> bool {
+        self.ticks > 0 && self.latest.1 == 0
+    }
+
     fn words(self) -> Option<String> {
         let Self { ticks, overruns, latest: (tick, late_ns) } = self;
         match (ticks, late_ns) {
             (0, _) => None,
-            (_, 0) => Some("not in real time: no tick could be late".into()),
+            (_, 0) => None,
             _ => Some(format!(
                 "real time: {overruns} of {ticks} ticks over their {} ms, the latest by {:.1} ms at {:.1} s",
                 STEP_NS / 1_000_000,
@@ -142,18 +151,16 @@ impl Facts {
         over.map(|ending| ending.until = Some(tick.max(ending.tick))).is_some()
     }
 
-    /// Takes the input devices that were there: of no device hands are those of a program, or on a keyboard.
-    pub fn flown_with(&mut self, devices: &[DeviceIdentity]) {
-        let mapped: Vec<&str> = devices
-            .iter()
-            .filter(|device| device.mapped != 0)
-            .map(|device| device.name.as_str())
-            .collect();
-        self.hands = if mapped.is_empty() {
-            "by a pilot model, script or keyboard".into()
-        } else {
-            format!("by hand, with {}", mapped.join(", "))
-        };
+    /// Takes who flew.
+    pub fn flown_by(&mut self, who: &str) {
+        self.hands = who.into();
+    }
+
+    /// Takes how far inside the conversion corridor it is at a tick, m/s.
+    pub fn add_margin(&mut self, tick: u64, margin_mps: f64) {
+        if self.margin_mps.is_none_or(|(least_mps, _)| margin_mps < least_mps) {
+            self.margin_mps = Some((margin_mps, tick));
+        }
     }
 
     /// Takes how a tick kept time.
@@ -195,19 +202,43 @@ impl Facts {
         told
     }
 
+    /// When it was flown, and by whom.
+    fn flown(&self, when: &str) -> String {
+        match (when, self.hands.as_str()) {
+            (when, "") => escaped(when),
+            ("", who) => format!("flown by {}", escaped(who)),
+            (when, who) => format!("{} by {}", escaped(when), escaped(who)),
+        }
+    }
+
+    /// How it kept to the conversion corridor.
+    fn corridor(&self) -> Option<String> {
+        let (margin_mps, tick) = self.margin_mps?;
+        let (kt, at_s) = (margin_mps.abs() * KT_PER_MPS, tick as f64 * STEP_S);
+        Some(if margin_mps < 0.0 {
+            format!("**outside the conversion corridor** by up to {kt:.1} kt, at {at_s:.1} s")
+        } else {
+            format!("inside the conversion corridor, least margin {kt:.1} kt at {at_s:.1} s")
+        })
+    }
+
     /// The lines below a flight's name.
     fn lines(&self, flown: &str) -> Vec<String> {
-        let mut lines = Vec::new();
-        lines.extend(self.told_endings());
-        let length = self.span.map(|(first, last)| {
+        let mut lines = self.told_endings();
+        let span = self.span.filter(|_| !self.live).map(|(first, last)| {
             format!("{:.1} to {:.1} s", first as f64 * STEP_S, last as f64 * STEP_S)
         });
-        let when = [escaped(flown), escaped(&self.hands)].join(" ").trim().to_string();
-        let first = [Some(when), length, self.pace.words()];
-        let first: Vec<String> =
-            first.into_iter().flatten().filter(|words| !words.is_empty()).collect();
-        lines.extend((!self.verdict.is_empty()).then(|| self.verdict.clone()));
-        lines.push(first.join(" · "));
+        let fast = self.pace.is_fast().then(|| "not in real time".to_string());
+        let joined = |parts: [Option<String>; 3]| {
+            let parts: Vec<String> =
+                parts.into_iter().flatten().filter(|words| !words.is_empty()).collect();
+            parts.join(" · ")
+        };
+        lines.extend(self.corridor());
+        lines.push(joined([Some(self.flown(flown)), span, fast]));
+        lines.extend((!self.verdict.is_empty()).then(|| format!("log {}", self.verdict)));
+        lines.extend(self.pace.words());
+        lines.retain(|line| !line.is_empty());
         lines
     }
 }
@@ -247,20 +278,22 @@ fn alone(about: &About, facts: &Facts) -> String {
 /// Writes what is known of two flights, each with its name and how its lines look.
 pub fn send_two(canvas: &mut Canvas, flights: [(&Look, &Facts); 2]) {
     const LINES: [&str; 2] =
-        ["broad pale lines, blue path", "thin lines, orange path and aircraft"];
+        ["broad pale lines; white aircraft and path", "thin lines; magenta aircraft and path"];
+    let first = flights[0].1.aircraft.clone();
     let mut lines = Vec::new();
     for (of, (look, facts)) in flights.into_iter().enumerate() {
         let flown = canvas.about.flown.get(of).map_or("", String::as_str);
         let name = escaped(look.name.trim_end_matches(": "));
-        let when = [escaped(flown), escaped(&facts.hands)].join(" ").trim().to_string();
         // There is little room: of the verdict what it says of the whole.
-        let verdict = facts.verdict.split(", ").next().unwrap_or_default().to_string();
-        let told = [escaped(&facts.aircraft)].into_iter().chain(facts.told_endings());
-        let told: Vec<String> =
-            told.chain([verdict, when]).filter(|words| !words.is_empty()).collect();
+        let verdict = facts.verdict.split(": ").next().unwrap_or_default();
+        let verdict = (!verdict.is_empty()).then(|| format!("log {verdict}"));
+        let aircraft = (first != facts.aircraft).then(|| escaped(&facts.aircraft));
+        let told = aircraft.into_iter().chain([facts.flown(flown)]);
+        let told = told.chain(facts.told_endings()).chain(verdict);
+        let told: Vec<String> = told.filter(|words| !words.is_empty()).collect();
         lines.push(format!("**{name}** ({}): {}", LINES[of], told.join(" · ")));
     }
-    let name = format!("**{}**", escaped(&canvas.about.title));
+    let name = format!("**{} · {}**", escaped(&canvas.about.title), escaped(&first));
     canvas.write(HEADING, page(name, lines));
 }
 
@@ -299,11 +332,20 @@ mod tests {
             assert!(!facts.add(&Outputs { tick, ..Outputs::default() }));
         }
         facts.judge("exact: all 500 ticks");
-        let stick = |mapped| DeviceIdentity { mapped, name: "X_52".into(), ..Default::default() };
-        facts.flown_with(&[stick(0)]);
-        assert!(alone(&about(), &facts).contains("UTC by a pilot model, script or"));
-        facts.flown_with(&[stick(0), stick(1)]);
-        assert!(alone(&about(), &facts).contains("UTC by hand, with X\\_52 ·"));
+        assert!(alone(&about(), &facts).contains("UTC · 0.0 to 2.0 s"));
+        facts.flown_by("X_52");
+        assert!(alone(&about(), &facts).contains("UTC by X\\_52 · 0.0 to 2.0 s"));
+        assert!(!alone(&about(), &facts).contains("corridor"));
+        facts.add_margin(250, 5.0);
+        facts.add_margin(500, 4.0);
+        facts.add_margin(501, 6.0);
+        let inside = "inside the conversion corridor, least margin 7.8 kt at 2.0 s";
+        assert!(alone(&about(), &facts).contains(inside));
+        facts.add_margin(750, -1.0);
+        let outside = "**outside the conversion corridor** by up to 1.9 kt, at 3.0 s";
+        assert!(alone(&about(), &facts).contains(outside));
+        let live = Facts { live: true, ..facts.clone() };
+        assert!(!alone(&about(), &live).contains("0.0 to 2.0 s"));
         let page = alone(&about(), &facts);
         for words in ["my\\_flight", "Bell XV-15", "2026-11-26", "to 2.0 s", "exact: all 500"] {
             assert!(page.contains(words), "{words} in {page}");

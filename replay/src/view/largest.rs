@@ -8,6 +8,9 @@ use logs::text::at;
 use super::heading::escaped;
 use super::plots::GRAPHS;
 
+/// Below this, in the unit of its plot, a difference is one of rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// What was found so far, line by line.
 #[derive(Default)]
 pub struct Largest {
@@ -26,26 +29,41 @@ impl Largest {
     }
 
     /// In Markdown: where they part, and a table of what differs, in the order of the graphs.
-    pub fn page(&self, [first, second]: [&str; 2], first_difference: Option<u64>) -> String {
-        let mut page = format!("# {} less {}\n\n", escaped(second), escaped(first));
+    pub fn page(
+        &self,
+        [first, second]: [&str; 2],
+        first_difference: Option<&(u64, String)>,
+    ) -> String {
+        let mut page = String::new();
         match first_difference {
-            Some(tick) => page.push_str(&format!("First difference at {}.\n\n", at(tick))),
+            Some((tick, what)) => {
+                let what = escaped(what);
+                let _ = write!(page, "**First difference at {}**: {what}.\n\n", at(*tick));
+            }
             None => page.push_str("No difference: the same states to the bit.\n\n"),
         }
         let names = GRAPHS
             .iter()
             .flat_map(|graph| graph.lines.iter().map(move |line| (graph.named(), line.name)));
-        let differing: Vec<_> =
-            names.zip(&self.lines).filter(|(_, (difference, _))| *difference != 0.0).collect();
+        let (rounding, differing): (Vec<_>, Vec<_>) = names
+            .zip(&self.lines)
+            .filter(|(_, (difference, _))| *difference != 0.0)
+            .partition(|(_, (difference, _))| difference.abs() < ROUNDING);
         if differing.is_empty() {
             return page;
         }
-        page.push_str("| what | largest | unit | at, s |\n|---|---:|---|---:|\n");
+        let (first, second) = (escaped(first), escaped(second));
+        let _ = writeln!(page, "| {second} less {first}: largest of | | unit | at, s |");
+        page.push_str("|---|---:|---|---:|\n");
         for ((graph, name), (difference, tick)) in differing {
             let at_s = *tick as f64 * STEP_S;
             let (what, unit) = graph;
             let _ =
                 writeln!(page, "| {what}: {name} | {} | {unit} | {at_s:.2} |", told(*difference));
+        }
+        if !rounding.is_empty() {
+            let _ =
+                writeln!(page, "\n{} more, each below {ROUNDING:e} of its unit.", rounding.len());
         }
         page
     }
@@ -72,13 +90,16 @@ mod tests {
         largest.add(250, &row);
         row[0] = -2.25;
         row[1] = f64::NAN;
+        row[2] = -1e-12;
         largest.add(500, &row);
         row[0] = 2.0;
         largest.add(750, &row);
-        let page = largest.page(["a", "b"], Some(250));
-        assert!(page.contains("# b less a"), "{page}");
+        let page = largest.page(["a", "b"], Some(&(250, "x (forces)".into())));
+        assert!(page.contains("| b less a: largest of |"), "{page}");
+        assert!(page.contains("at tick 250 (1.000 s)**: x \\(forces\\)."), "{page}");
         assert!(page.contains("Height: above ground | -2.250 | m | 2.00 |"), "{page}");
         assert_eq!(page.lines().filter(|line| line.starts_with("| ")).count(), 2, "{page}");
+        assert!(page.contains("1 more, each below 1e-9"), "{page}");
         assert!(Largest::default().page(["a", "b"], None).contains("No difference"));
     }
 }

@@ -60,6 +60,17 @@ impl Layout {
         }
     }
 
+    /// How long before the flight its time axes begin, as a part of it: there legends lie.
+    pub fn before_norm(&self, plan: &Plan) -> f64 {
+        match self {
+            // Of two flights lines have longer names, in narrower plots.
+            _ if plan.is_comparison() => 0.62,
+            // Two plots beside each other.
+            Self::Engineer => 0.5,
+            _ => 0.26,
+        }
+    }
+
     /// The arrangement.
     pub fn tree(&self, plan: &Plan) -> Part {
         let below = match self {
@@ -71,31 +82,41 @@ impl Layout {
             Self::Own(own) => return own.tree(plan),
         };
         let share = if plan.is_comparison() { 4.6 } else { 5.6 };
-        down("Review", &[1.0, share], vec![above(), below])
+        let numbers = match self {
+            Self::Rotor if !plan.is_comparison() => {
+                let both = vec![view(Shown::NumbersOfRotors), view(Shown::Numbers)];
+                Part::Tabs("Numbers".into(), both)
+            }
+            _ => view(Shown::Numbers),
+        };
+        let above = across("Above", &[1.0, 2.2], vec![view(Shown::Heading), numbers]);
+        down("Review", &[1.0, share], vec![above, below])
     }
-}
-
-/// Which flight it is, and numbers at the cursor.
-fn above() -> Part {
-    across("Above", &[1.0, 2.2], vec![view(Shown::Heading), view(Shown::Numbers)])
 }
 
 /// Tabs of graphs, each with its graphs from top to bottom; the entity [`RAW`](super::parts::RAW) is all axes.
 type Tab = (&'static str, &'static [&'static str]);
 
-// Not more than four below each other: lower ones have no room for the numbers of their axes.
+// What stands below each other has room for its legend: see `legends_have_room`.
 const FLIGHT: Tab = ("Flight", &["height", "airspeed", "attitude"]);
-const MOTION: Tab = ("Motion", &["nacelle", "heading", "climb", "load_factor"]);
-const AIR: Tab = ("Air", &["rates", "flow", "wind", "stalled"]);
-const CONTROLS: Tab = ("Control chain", &["raw", "pilot", "scas", "elevator"]);
-const ACTUATORS: Tab = ("Actuators", &["flaperons", "collective", "cyclic"]);
+const MOTION: Tab = ("Motion", &["nacelle", "heading", "climb"]);
+const RATES: Tab = ("Rates", &["rates", "flow", "load_factor"]);
+const AIR: Tab = ("Air", &["wind", "stalled"]);
+const CONTROLS: Tab = ("Controls", &["pilot", "scas"]);
+const SURFACES: Tab = ("Surfaces", &["elevator", "flaperons"]);
+const BLADES: Tab = ("Blade pitch", &["collective", "cyclic"]);
 const ROTORS: Tab = ("Rotors", &["thrust", "torque", "rotor_speed"]);
 const INFLOW: Tab = ("Inflow", &["inflow", "blade_loading", "stalled"]);
 const FLAPPING: Tab = ("Flapping", &["flapping_aft", "flapping_outboard", "coning"]);
 const ENGINES: Tab = ("Engines", &["power", "fuel_flow", "fuel"]);
-const FORCES: Tab = ("Forces", &["force_x", "force_z"]);
-const MOMENTS: Tab = ("Moments", &["moment_roll", "moment_pitch", "moment_yaw"]);
 const GEAR: Tab = ("Gear", &["gear_push", "gear_compression", "gear_extension"]);
+const LOADS: [Tab; 5] = [
+    ("Force forward", &["force_x"]),
+    ("Force up", &["force_z"]),
+    ("Rolling", &["moment_roll"]),
+    ("Pitching", &["moment_pitch"]),
+    ("Yawing", &["moment_yaw"]),
+];
 const TIMES_OF_TICKS: Tab = ("Every tick", &["sent", "step", "latency"]);
 const SLIPS: Tab = ("Slips and overruns", &["slip", "overrun"]);
 
@@ -155,15 +176,23 @@ fn graph(name: &str) -> Option<(&'static str, &'static str)> {
 /// A graph's plot, of every flight.
 fn plot(plan: &Plan, name: &str) -> Option<Part> {
     let (title, entity) = graph(name)?;
-    Some(view(Shown::Plot { title: title.into(), queries: plan.each(entity), legend: true }))
+    let title = plan.titled(title, entity);
+    Some(view(Shown::Plot { title, queries: plan.each(entity), legend: true }))
 }
 
 fn tab(plan: &Plan, (name, graphs): Tab) -> Part {
     down(name, &[], graphs.iter().filter_map(|graph| plot(plan, graph)).collect())
 }
 
-fn tabs(plan: &Plan, all: &[Tab]) -> Part {
-    Part::Tabs("Plots".into(), all.iter().map(|one| tab(plan, *one)).collect())
+fn tabs(plan: &Plan, name: &str, all: &[Tab]) -> Part {
+    Part::Tabs(name.into(), all.iter().map(|one| tab(plan, *one)).collect())
+}
+
+/// From what devices said over what the pilot asked for and the SCAS added to what the surfaces did.
+fn control_chain(plan: &Plan) -> Part {
+    let asked = tab(plan, ("Asked", &["raw", "pilot"]));
+    let done = tab(plan, ("Done", &["scas", "elevator"]));
+    across("Control chain", &[], vec![asked, done])
 }
 
 /// The aircraft, where it was, and what happened.
@@ -177,33 +206,41 @@ fn right(plots: Part) -> Part {
 }
 
 fn pilot(plan: &Plan) -> Part {
-    let plots = tabs(plan, &[FLIGHT, MOTION, CONTROLS, ROTORS, ENGINES, GEAR, AIR]);
+    let all = [FLIGHT, MOTION, CONTROLS, ROTORS, ENGINES, GEAR, RATES, AIR];
+    let plots = tabs(plan, "Plots", &all);
     across("Pilot", &[11.0, 10.0], vec![left(aircraft(BEHIND_M, NO_LOADS)), right(plots)])
 }
 
 fn engineer(plan: &Plan) -> Part {
-    let groups = [
+    let groups = vec![
+        // What was asked for and what became of it: the flight itself is what pilots look at.
+        control_chain(plan),
+        tabs(plan, "Actuators", &[SURFACES, BLADES]),
         tab(plan, FLIGHT),
-        tab(plan, MOTION),
-        tab(plan, AIR),
-        tab(plan, CONTROLS),
-        tab(plan, ACTUATORS),
-        Part::Tabs("Rotors".into(), [ROTORS, INFLOW, FLAPPING].map(|one| tab(plan, one)).into()),
+        tabs(plan, "Motion", &[MOTION, RATES, AIR]),
+        tabs(plan, "Rotors", &[ROTORS, INFLOW, FLAPPING]),
         tab(plan, ENGINES),
-        Part::Tabs("Loads".into(), [FORCES, MOMENTS, GEAR].map(|one| tab(plan, one)).into()),
-        Part::Tabs("Latency".into(), [TIMES_OF_TICKS, SLIPS].map(|one| tab(plan, one)).into()),
+        tabs(plan, "Loads", &[LOADS[0], LOADS[1], LOADS[2], LOADS[3], LOADS[4], GEAR]),
+        tabs(plan, "Latency", &[TIMES_OF_TICKS, SLIPS]),
     ];
-    let plots = Part::Tabs("Plots".into(), groups.into());
+    let plots = Part::Tabs("Plots".into(), groups);
     across("Engineer", &[2.0, 3.0], vec![left(aircraft(BEHIND_M, NO_MOMENTS)), right(plots)])
 }
 
 fn rotor(plan: &Plan) -> Part {
+    let beside = [
+        tab(plan, FLAPPING),
+        tab(plan, BLADES),
+        tabs(plan, "Loads", &LOADS),
+        tab(plan, CONTROLS),
+        tab(plan, SURFACES),
+    ];
     let plots = across(
         "Rotors",
         &[],
         vec![
-            tabs(plan, &[ROTORS, INFLOW, ENGINES, GEAR]),
-            tabs(plan, &[ACTUATORS, FLAPPING, FORCES, MOMENTS, CONTROLS]),
+            tabs(plan, "Plots", &[ROTORS, INFLOW, ENGINES, GEAR]),
+            Part::Tabs("Plots beside".into(), beside.into()),
         ],
     );
     across("Rotor", &[1.0, 2.0], vec![left(aircraft(NEAR_M, &[])), right(plots)])
@@ -214,24 +251,32 @@ fn latency(plan: &Plan) -> Part {
     across(
         "Latency",
         &[5.0, 2.0],
-        vec![right(tabs(plan, &[TIMES_OF_TICKS, SLIPS])), down("Where", &[1.0, 1.0], beside)],
+        vec![
+            right(tabs(plan, "Plots", &[TIMES_OF_TICKS, SLIPS])),
+            down("Where", &[1.0, 1.0], beside),
+        ],
     )
 }
 
 /// Graphs that are compared, with room for the legends of two; times of ticks are the machine's, not the flight's.
-const COMPARED: [Tab; 13] = [
+const COMPARED: [Tab; 18] = [
     FLIGHT,
     MOTION,
-    ("Controls", &["pilot", "scas", "elevator"]),
-    ACTUATORS,
+    CONTROLS,
+    SURFACES,
+    BLADES,
     ROTORS,
     INFLOW,
     FLAPPING,
     ENGINES,
-    FORCES,
-    MOMENTS,
+    LOADS[0],
+    LOADS[1],
+    LOADS[2],
+    LOADS[3],
+    LOADS[4],
     GEAR,
-    ("Air", &["rates", "flow", "wind"]),
+    RATES,
+    AIR,
     ("Raw counts", &["raw"]),
 ];
 
@@ -241,8 +286,9 @@ fn compare(plan: &Plan) -> Part {
             graphs.iter().filter_map(|name| graph(name)).filter(|(_, of)| !of.contains('*'));
         let deltas: Vec<Part> = delta
             .map(|(title, entity)| {
-                let queries = vec![format!("/delta/{entity}")];
-                view(Shown::Plot { title: format!("Δ {title}"), queries, legend: true })
+                let entity = format!("delta/{entity}");
+                let title = plan.titled(&format!("Δ {title}"), &entity);
+                view(Shown::Plot { title, queries: vec![format!("/{entity}")], legend: true })
             })
             .collect();
         let both = tab(plan, (name, graphs));
@@ -282,7 +328,7 @@ fn compare(plan: &Plan) -> Part {
         "Comparison",
         &[2.0, 3.0],
         vec![
-            down("Where", &[4.0, 3.0, 3.0], left),
+            down("Where", &[3.6, 1.6, 4.8], left),
             down("When", &[17.0, 4.0], vec![Part::Tabs("Plots".into(), plots), lanes]),
         ],
     )
@@ -320,10 +366,23 @@ mod tests {
                 .any(|one| matches!(one, Shown::Plot { queries, .. } if queries.contains(&query)));
             assert!(drawn, "{entity}");
         }
-        for (tab, graphs) in COMPARED.iter().chain([&TIMES_OF_TICKS, &SLIPS]) {
-            assert!(graphs.len() <= 4, "{tab} has too many for their height");
-            for name in *graphs {
+    }
+
+    /// In a window 900 points high plots that are below each other share 310 points, and 545 where two flights
+    /// are compared; the title, the edge and half of the axis take 30 of each, and each line of a legend 22.
+    #[test]
+    fn legends_have_room() {
+        let chain = [("Asked", &["raw", "pilot"][..]), ("Done", &["scas", "elevator"])];
+        for (tab, names) in COMPARED.into_iter().chain([TIMES_OF_TICKS, SLIPS]).chain(chain) {
+            for name in names {
                 assert!(graph(name).is_some(), "{tab}: {name}");
+                let lines_of =
+                    |of: &str, lines: usize| of.ends_with(&format!("/{name}")) as usize * lines;
+                let lines: usize = GRAPHS.iter().map(|g| lines_of(g.entity, g.lines.len())).sum();
+                let of_times: usize = TIMES.iter().map(|g| lines_of(g.entity, g.lines.len())).sum();
+                let lines = lines + of_times;
+                assert!(22 * lines <= 310 / names.len() - 30, "{tab}: {name}");
+                assert!(22 * 2 * lines <= 545 / names.len() - 30, "{tab}: {name}, of two flights");
             }
         }
     }

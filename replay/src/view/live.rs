@@ -31,8 +31,7 @@ const PATH_PART: u64 = 20;
 const EVENTS_MAX: usize = 1000;
 
 /// What its log is, for now.
-const NOT_VERIFIED: &str =
-    "not verified while it is flown: `tiltrotor verify` says what the log is";
+const NOT_VERIFIED: &str = "not verified while it is flown";
 
 /// What came of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -52,13 +52,14 @@ impl Look {
         }
     }
 
-    /// The first of two: in its own colours, its path blue; its lines are broad and pale.
+    /// The first of two: in its own colours, its path white; its lines are broad and pale. No line of a plot has the
+    /// colours of the paths: there they tell quantities.
     pub fn first(name: &str) -> Self {
         Self {
             root: format!("{name}/"),
             name: format!("{name}: "),
-            flown: 0x58_B4_FF_FF,
-            path: 0x58_B4_FF_00,
+            flown: 0xF0_F0_F0_FF,
+            path: 0xF0_F0_F0_00,
             line_mask: 0xFF_FF_FF_70,
             line_width: 3.0,
             by_mode: false,
@@ -66,15 +67,15 @@ impl Look {
         }
     }
 
-    /// The flight beside it: the aircraft and its path are orange; its lines are thin, within the other's.
+    /// The flight beside it: the aircraft and its path are magenta; its lines are thin, within the other's.
     pub fn second(name: &str) -> Self {
         Self {
             root: format!("{name}/"),
             name: format!("{name}: "),
             ground: false,
-            tint: 0xFF_8A_30_FF,
-            flown: 0xFF_8A_30_FF,
-            path: 0xFF_8A_30_00,
+            tint: 0xF0_50_D0_FF,
+            flown: 0xF0_50_D0_FF,
+            path: 0xF0_50_D0_00,
             line_width: -0.3,
             by_mode: false,
             ..Self::alone()

@@ -112,12 +112,7 @@ pub static MODES: LazyLock<Vec<Mode>> = LazyLock::new(|| {
         ),
         Mode::new(
             "modes/gear",
-            &[
-                ("up", QUIET),
-                ("moving", CAUTION),
-                ("down", GREEN),
-                ("on the ground", 0x8A_6A_48_FF),
-            ],
+            &[("up", QUIET), ("moving", CAUTION), ("down", GREEN), ("on ground", 0x8A_6A_48_FF)],
             gear,
         ),
         Mode::new(
@@ -172,7 +167,7 @@ fn gear(Seen { outputs, .. }: Seen) -> &'static str {
 fn gear_of(outputs: &Outputs) -> &'static str {
     let on_wheels = outputs.landing_gear.main.map(|leg| leg.push_n).sum() > 0.0;
     match outputs.actuators.gear_extension_norm {
-        _ if on_wheels => "on the ground",
+        _ if on_wheels => "on ground",
         extension if extension >= 1.0 => "down",
         extension if extension <= 0.0 => "up",
         _ => "moving",

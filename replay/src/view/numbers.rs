@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use engine::pair::Pair;
 use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees};
 use engine::{Outputs, STEP_S};
 use rerun::{MediaType, RecordingStream, RecordingStreamResult, TextDocument};
@@ -25,17 +26,31 @@ const fn number(name: &'static str, decimals: usize, of: fn(&Outputs) -> f64) ->
 }
 
 const READ: &[Number] = &[
-    number("height, m", 1, |o| o.height_above_ground_m),
-    number("airspeed, kt", 1, |o| o.calibrated_airspeed_mps * KT_PER_MPS),
+    number("height AGL, m", 1, |o| o.height_above_ground_m),
+    number("airspeed, KCAS", 1, |o| o.calibrated_airspeed_mps * KT_PER_MPS),
     number("climb, ft/min", 0, |o| -o.velocity_mps.z * FPM_PER_MPS),
-    number("heading, deg", 0, |o| degrees(o.euler.heading_rad).rem_euclid(360.0)),
-    number("roll, deg", 1, |o| degrees(o.euler.roll_rad)),
-    number("pitch, deg", 1, |o| degrees(o.euler.pitch_rad)),
+    number("heading, °", 0, |o| degrees(o.euler.heading_rad).rem_euclid(360.0)),
+    number("roll, °", 1, |o| degrees(o.euler.roll_rad)),
+    number("pitch, °", 1, |o| degrees(o.euler.pitch_rad)),
     number("load, g", 2, |o| o.load_factor),
-    number("nacelles, deg", 1, |o| 90.0 - degrees(o.actuators.mast_tilt_rad.mean())),
+    number("nacelles, °", 1, |o| 90.0 - degrees(o.actuators.mast_tilt_rad.mean())),
     number("lever, %", 0, |o| 100.0 * o.cockpit.collective_norm),
     number("rotors, rpm", 0, |o| o.rotor_speed_radps * RPM_PER_RADPS),
     number("power, kW", 0, |o| 1e-3 * o.engines.power_w.sum()),
+];
+
+/// What is read of each rotor.
+const READ_OF_ROTORS: &[(&str, usize, fn(&Outputs) -> Pair<f64>)] = &[
+    ("thrust, kN", 2, |o| o.rotors.map(|rotor| 1e-3 * rotor.thrust_n)),
+    ("torque, kN·m", 2, |o| o.rotors.map(|rotor| 1e-3 * rotor.torque_n_m)),
+    ("rpm", 0, |o| Pair::both(o.rotor_speed_radps * RPM_PER_RADPS)),
+    ("collective, °", 1, |o| o.actuators.collective_rad.map(degrees)),
+    ("cyclic forward, °", 1, |o| o.actuators.cyclic_forward_rad.map(degrees)),
+    ("tip path aft, °", 1, |o| o.rotors.map(|rotor| degrees(rotor.tilt_aft_rad))),
+    ("outboard, °", 1, |o| o.rotors.map(|rotor| degrees(rotor.tilt_outboard_rad))),
+    ("coning, °", 1, |o| o.rotors.map(|rotor| degrees(rotor.coning_rad))),
+    ("induced, m/s", 1, |o| o.rotors.map(|rotor| rotor.induced_mps)),
+    ("C_T/σ", 3, |o| o.rotors.map(|rotor| rotor.blade_loading)),
 ];
 
 /// The first line of a table, and the one below it.
@@ -49,16 +64,19 @@ fn head(page: &mut String, first: &str) {
     page.push('\n');
 }
 
+/// A cell of a table.
+fn cell(page: &mut String, decimals: usize, value: f64) {
+    // What rounds to nothing has no sign.
+    let text = format!("{value:.decimals$}");
+    let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
+    let text = if is_nothing { text.trim_start_matches('-') } else { &text };
+    let _ = write!(page, " {text} |");
+}
+
 /// A line of a table.
 fn line(page: &mut String, first: &str, of: impl Fn(&Number) -> f64) {
     let _ = write!(page, "| {first} |");
-    for number in READ {
-        // What rounds to nothing has no sign.
-        let text = format!("{:.*}", number.decimals, of(number));
-        let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
-        let text = if is_nothing { text.trim_start_matches('-') } else { &text };
-        let _ = write!(page, " {text} |");
-    }
+    READ.iter().for_each(|number| cell(page, number.decimals, of(number)));
 }
 
 /// How it flies, in words.
@@ -87,6 +105,25 @@ pub fn page(outputs: &Outputs, over: Option<&str>) -> String {
     if let Some(over) = over {
         let _ = write!(page, "\n**{over}: none of these numbers means anything.**\n");
     }
+    page
+}
+
+/// What is read of both rotors at a tick.
+pub fn page_of_rotors(outputs: &Outputs) -> String {
+    let mut page = String::from("| rotor |");
+    READ_OF_ROTORS.iter().for_each(|(name, ..)| {
+        let _ = write!(page, " {name} |");
+    });
+    page.push_str("\n|---|");
+    page.push_str(&"---|".repeat(READ_OF_ROTORS.len()));
+    for (name, is_left) in [("**left**", true), ("**right**", false)] {
+        let _ = write!(page, "\n| {name} |");
+        for (_, decimals, of) in READ_OF_ROTORS {
+            let both = of(outputs);
+            cell(&mut page, *decimals, if is_left { both.left } else { both.right });
+        }
+    }
+    page.push('\n');
     page
 }
 
@@ -172,9 +209,22 @@ mod tests {
             lines[2][place]
         };
         assert_eq!(of("time, s"), "**2.00**");
-        assert_eq!(of("height, m"), "12.3");
-        assert_eq!(of("heading, deg"), "350");
+        assert_eq!(of("height AGL, m"), "12.3");
+        assert_eq!(of("heading, °"), "350");
         assert_eq!(of("flown as"), "helicopter");
+    }
+
+    #[test]
+    fn every_number_of_a_rotor_stands_below_its_name() {
+        let mut outputs = outputs(0.0);
+        outputs.rotors.left.thrust_n = 30e3;
+        outputs.rotors.right.thrust_n = 31e3;
+        let page = page_of_rotors(&outputs);
+        let lines: Vec<Vec<&str>> = page.lines().map(cells).collect();
+        assert_eq!(lines.len(), 4, "{page}");
+        assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{page}");
+        assert_eq!((lines[2][1], lines[2][2]), ("**left**", "30.00"));
+        assert_eq!((lines[3][1], lines[3][2]), ("**right**", "31.00"));
     }
 
     #[test]
@@ -195,7 +245,7 @@ mod tests {
         let lines: Vec<Vec<&str>> = page.lines().map(cells).collect();
         assert_eq!(lines.len(), 5, "{page}");
         assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{page}");
-        let place = lines[0].iter().position(|cell| *cell == "heading, deg").expect("a column");
+        let place = lines[0].iter().position(|cell| *cell == "heading, °").expect("a column");
         assert_eq!(lines[4][place], "20");
     }
 }

@@ -27,6 +27,8 @@ pub struct Line<T: 'static> {
     pub width: f32,
     /// Its value.
     pub of: fn(&T) -> f64,
+    /// Whether it is what the others are to be below, and no part of what was flown.
+    pub is_limit: bool,
 }
 
 impl<T> Graph<T> {
@@ -61,11 +63,15 @@ const GREY: u32 = 0x8C_8C_8C_FF;
 type Value<T> = fn(&T) -> f64;
 
 const fn line<T>(name: &'static str, colour: u32, of: Value<T>) -> Line<T> {
-    Line { name, colour, width: 1.5, of }
+    Line { name, colour, width: 1.5, of, is_limit: false }
 }
 
 const fn broad<T>(name: &'static str, colour: u32, of: Value<T>) -> Line<T> {
-    Line { name, colour, width: 3.5, of }
+    Line { name, colour, width: 3.5, of, is_limit: false }
+}
+
+const fn limit<T>(name: &'static str, of: Value<T>) -> Line<T> {
+    Line { name, colour: GREY, width: 1.5, of, is_limit: true }
 }
 
 /// A graph of something on both sides.
@@ -225,7 +231,7 @@ pub const GRAPHS: &[Graph<Outputs>] = &[
     Graph::new("plots/power", "Engine power, kW", &[
         broad("left", LEFT, |o| 1e-3 * o.engines.power_w.left),
         line("right", RIGHT, |o| 1e-3 * o.engines.power_w.right),
-        line("available", GREY, |o| 1e-3 * o.engines.available_w),
+        limit("available", |o| 1e-3 * o.engines.available_w),
     ]),
     Graph::new("plots/fuel", "Fuel, kg", &[line("aboard", WHITE, |o| o.fuel_kg)]),
     Graph::new("plots/fuel_flow", "Fuel flow, kg/h", &[
@@ -264,7 +270,7 @@ pub const TIMES: &[Graph<TimingRecord>] = &[
     Graph::new("times/sent", "From due to the picture's packet, ms", &[
         broad("lateness and all", ORANGE, |t| ms(t.late_ns.saturating_add(t.sent_ns))),
         line("lateness alone", BLUE, |t| ms(t.late_ns)),
-        line("a tick: 4 ms", GREY, |_| BUDGET_MS),
+        limit("a tick: 4 ms", |_| BUDGET_MS),
     ]),
     Graph::new("times/latency", "From an input in the kernel to the packet, ms", &[
         // Without an input of hardware there is none.
@@ -273,7 +279,7 @@ pub const TIMES: &[Graph<TimingRecord>] = &[
     Graph::new("times/step", "Work of a tick, ms", &[
         line("flight model", ORANGE, |t| ms(t.step_ns)),
         line("handing over to the log", BLUE, |t| ms(t.record_ns)),
-        line("a tick: 4 ms", GREY, |_| BUDGET_MS),
+        limit("a tick: 4 ms", |_| BUDGET_MS),
     ]),
     Graph::new("times/slip", "Slips of the clock, ms", &[
         line("slip", LEFT, |t| ms(t.slip_ns)),

@@ -22,7 +22,7 @@ use super::lanes::Lanes;
 use super::look::Look;
 use super::modes::{MODES, Seen, alarm};
 use super::numbers::{self, Pages, ROWS_PER_PAGE};
-use super::parts::NUMBERS;
+use super::parts::{NUMBERS, NUMBERS_OF_ROTORS};
 use super::plots::{GRAPHS, Graph, TIMES};
 use super::raw::Raw;
 use super::scene::{PathPoint, send_moving};
@@ -76,6 +76,7 @@ pub struct Track {
     /// What stands above it.
     pub facts: heading::Facts,
     pages: Pages,
+    rotor_pages: Pages,
     /// When the last one was, the settings that it told, and whether the flight was over by then.
     told: Option<(u64, numbers::Settings, bool)>,
     /// Where it began.
@@ -111,6 +112,7 @@ impl Track {
             trace: corridor::Trace::new(),
             facts: heading::Facts::new(aircraft),
             pages: Pages::default(),
+            rotor_pages: Pages::default(),
             told: None,
             begun: None,
             restarts: 0,
@@ -123,7 +125,11 @@ impl Track {
 
     /// One that is drawn while it is flown.
     pub fn live(look: Look, aircraft: &Aircraft, own: Vec<(usize, Field)>) -> Self {
-        Self { live: true, lanes: Lanes::new(true), ..Self::new(look, aircraft, own) }
+        let mut track = Self::new(look, aircraft, own);
+        track.live = true;
+        track.lanes = Lanes::new(true);
+        track.facts.live = true;
+        track
     }
 
     /// Whoever was told of it is gone: the next one begins with what was and what is, the path and the events.
@@ -133,6 +139,7 @@ impl Track {
         self.axes_told.clear();
         self.flown_to_m = None;
         self.pages = Pages::default();
+        self.rotor_pages = Pages::default();
         self.told = None;
         self.events.forget();
     }
@@ -143,8 +150,10 @@ impl Track {
         let sent = fields::send_still(&canvas.recording, &self.look, &self.own);
         canvas.keep(sent);
         if self.is_alone() {
-            let sent = numbers::send_still(&canvas.recording, NUMBERS);
-            canvas.keep(sent);
+            for entity in [NUMBERS, NUMBERS_OF_ROTORS] {
+                let sent = numbers::send_still(&canvas.recording, entity);
+                canvas.keep(sent);
+            }
         }
         for (tick, words) in self.lanes.write_all(canvas, &self.look) {
             self.warn(canvas, tick, &words);
@@ -186,8 +195,17 @@ impl Track {
 
     /// Notes when nothing from there on means anything.
     fn look_for_ending(&mut self, canvas: &mut Canvas, outputs: &Outputs) {
+        self.look_at_margin(outputs);
         if self.facts.add(outputs) {
             self.tell_ending(canvas, self.facts.endings().len() - 1);
+        }
+    }
+
+    /// Notes how far inside the corridor it is, while that means anything.
+    fn look_at_margin(&mut self, outputs: &Outputs) {
+        let margin_mps = self.aircraft.envelope.corridor.margin_in_flight_mps(outputs);
+        if let (Some(margin_mps), None) = (margin_mps, self.facts.over()) {
+            self.facts.add_margin(outputs.tick, margin_mps);
         }
     }
 
@@ -242,7 +260,7 @@ impl Track {
             self.warn(canvas, outputs.tick, &words);
         }
         self.rows.push(*outputs);
-        self.tell_numbers(outputs);
+        self.tell_numbers(canvas, outputs);
         self.drawn += 1;
         if self.live {
             self.send_motion(canvas, std::slice::from_ref(outputs));
@@ -254,18 +272,22 @@ impl Track {
     }
 
     /// Numbers at the cursor: at round times, and at once where a setting changes or the flight is over.
-    fn tell_numbers(&mut self, outputs: &Outputs) {
+    fn tell_numbers(&mut self, canvas: &Canvas, outputs: &Outputs) {
         const PAGE_TICKS: u64 = TICKS_PER_ROW * ROWS_PER_PAGE;
         let over = self.facts.over().map(heading::Ending::words);
         let now = (outputs.tick / PAGE_TICKS, numbers::settings(outputs), over.is_some());
         if self.is_alone() && self.told != Some(now) {
             self.pages.add(outputs.tick, numbers::page(outputs, over.as_deref()));
+            if canvas.shows_rotors() {
+                self.rotor_pages.add(outputs.tick, numbers::page_of_rotors(outputs));
+            }
             self.told = Some(now);
         }
     }
 
     /// Takes what was seen and is not drawn.
     pub fn miss(&mut self, outputs: &Outputs, world: &World) {
+        self.look_at_margin(outputs);
         self.facts.add(outputs);
         self.remember(outputs, world);
     }
@@ -378,6 +400,7 @@ impl Track {
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
         let times = times(&ticks);
         self.pages.flush(canvas, NUMBERS);
+        self.rotor_pages.flush(canvas, NUMBERS_OF_ROTORS);
         if self.live {
             self.flush_times(canvas);
         } else {
@@ -451,6 +474,9 @@ fn send_graphs<T>(
 ) {
     for graph in graphs {
         let values = rows.iter().flat_map(|row| graph.lines.iter().map(|line| (line.of)(row)));
+        let values: Vec<f64> = values.collect();
+        let drawn = values.iter().zip(graph.lines.iter().cycle());
+        canvas.see(graph.entity, drawn.filter(|(_, line)| !line.is_limit).map(|(value, _)| *value));
         let columns = Scalars::new(values)
             .columns(std::iter::repeat_n(graph.lines.len(), rows.len()))
             .map(Vec::from_iter);
