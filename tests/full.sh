@@ -30,7 +30,7 @@ step memory "memory does not grow with the flight" "tests/integrity.sh memory"
 step faults "every writing verb, with a fault or killed at every kind of system call" 'tests/faults.sh ${TILTROTOR:-}'
 step anomaly "the story of docs/anomaly.md is what the commands print" 'tests/anomaly.sh ${TILTROTOR:-}'
 step determinism "the same bits by every build and processor at hand, 64-bit Arm included" \
-    'if command -v qemu-aarch64 aarch64-linux-gnu-gcc >/dev/null; then export TILTROTOR_AARCH64=build; fi
+    'if command -v qemu-aarch64 && command -v aarch64-linux-gnu-gcc; then export TILTROTOR_AARCH64=build; fi
     tests/determinism.sh whole'
 step cross "other systems' programs" "tests/cross.sh"
 step fmu-windows "the FMU's Windows library beside that for Linux" 'tests/fmu_windows.sh ${TILTROTOR:-}'
