@@ -142,10 +142,7 @@ pub fn run(args: &Args) -> Result<Status> {
     plan.panel = args.keyboard || (real_time && !args.no_panel && on_a_terminal());
     if plan.panel {
         // Whoever else flies: freeze, reset, failures and weather are on keys.
-        plan.add_keyboard(&mut map)?;
-        if args.keyboard {
-            plan.flown_by("keyboard");
-        }
+        plan.add_keyboard(&mut map, args.keyboard)?;
     }
     plan.set_map(map)?;
     if let (Some(name), None, true) = (&args.pilot, args.duration, args.common.fast)

@@ -294,13 +294,16 @@ impl Plan {
         Ok(())
     }
 
-    /// Lets the keys fly.
-    pub fn add_keyboard(&mut self, map: &mut cockpit::Params) -> Result<()> {
+    /// Lets the keys in: to fly, which the log notes, or beside whoever flies.
+    pub fn add_keyboard(&mut self, map: &mut cockpit::Params, flies: bool) -> Result<()> {
         let own = aircraft::cockpit("keyboard.toml", aircraft::KEYBOARD_MAP)?;
         map.device.extend(own.device);
         let (keyboard, orders) = Keyboard::of(map).context("the map has no keyboard")?;
         self.flight.controllers.push(Box::new(keyboard));
         self.orders = Some(orders);
+        if flies {
+            self.flown_by("keyboard");
+        }
         Ok(())
     }
 

@@ -119,6 +119,7 @@ pub fn draw_against(
         Other::Reflown => Beside::Reflown(Box::new(first.first()?)),
     };
     let file = Saved::new(saved)?;
+    let is_reflown = matches!(other, Beside::Reflown(_));
     let mut page = Page::new(&file, (&first.aircraft, other.aircraft(&first)), how)?;
     while let Some(at) = first.cursor.now.take() {
         if let Some(restart) = &at.restart {
@@ -161,6 +162,9 @@ pub fn draw_against(
     let (told, who, judgement) = first.told();
     page.first.facts.flown_by(&who);
     page.tell_first(start_tick, &judgement, &told);
+    if is_reflown {
+        page.second.facts.flown_by("this program from the log's inputs");
+    }
     judgements.push(judgement);
     if let Beside::Log(flight) = other {
         let (told, who, judgement) = flight.told();
@@ -499,7 +503,7 @@ fn growth_entity(number: usize) -> String {
 /// The second less the first; angles round the shorter way.
 fn difference(entity: &str, first: f64, second: f64) -> f64 {
     let apart = second - first;
-    if entity.ends_with("/heading") {
+    if ["/heading", "/attitude", "/flow"].iter().any(|round| entity.ends_with(round)) {
         let wrapped_rad = engine::math::wrap_angle(apart / 180.0 * PI);
         wrapped_rad / TAU * 360.0
     } else {

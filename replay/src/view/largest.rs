@@ -42,9 +42,8 @@ impl Largest {
             }
             None => page.push_str("No difference: the same states to the bit.\n\n"),
         }
-        let names = GRAPHS
-            .iter()
-            .flat_map(|graph| graph.lines.iter().map(move |line| (graph.named(), line.name)));
+        let names =
+            GRAPHS.iter().flat_map(|graph| graph.lines.iter().map(move |line| (graph, line.name)));
         let (rounding, differing): (Vec<_>, Vec<_>) = names
             .zip(&self.lines)
             .filter(|(_, (difference, _))| *difference != 0.0)
@@ -57,9 +56,9 @@ impl Largest {
         page.push_str("|---|---:|---|---:|\n");
         for ((graph, name), (difference, tick)) in differing {
             let at_s = *tick as f64 * STEP_S;
-            let (what, unit) = graph;
-            let _ =
-                writeln!(page, "| {what}: {name} | {} | {unit} | {at_s:.2} |", told(*difference));
+            let (what, unit) = graph.named();
+            let name = if graph.lines.len() > 1 { format!("{what}: {name}") } else { what.into() };
+            let _ = writeln!(page, "| {name} | {} | {unit} | {at_s:.2} |", told(*difference));
         }
         if !rounding.is_empty() {
             let _ =

@@ -39,8 +39,11 @@ const READ: &[Number] = &[
     number("power, kW", 0, |o| 1e-3 * o.engines.power_w.sum()),
 ];
 
+/// A number of each rotor: its name with its unit, its decimals.
+type OfRotors = (&'static str, usize, fn(&Outputs) -> Pair<f64>);
+
 /// What is read of each rotor.
-const READ_OF_ROTORS: &[(&str, usize, fn(&Outputs) -> Pair<f64>)] = &[
+const READ_OF_ROTORS: &[OfRotors] = &[
     ("thrust, kN", 2, |o| o.rotors.map(|rotor| 1e-3 * rotor.thrust_n)),
     ("torque, kN·m", 2, |o| o.rotors.map(|rotor| 1e-3 * rotor.torque_n_m)),
     ("rpm", 0, |o| Pair::both(o.rotor_speed_radps * RPM_PER_RADPS)),
