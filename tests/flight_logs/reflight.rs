@@ -289,7 +289,8 @@ fn what_if_flies_the_same_hands_on_another_aircraft() {
     let whatif = ["whatif", text(flight()), "--from", "12", "--out", text(&out)];
     tiltrotor(&[&whatif[..], &set[..]].concat())
         .ends(OK)
-        .says("fcc.travel.collective_in = 9.5; fcc.travel.pedal_in = 2")
+        .says("fcc.travel.collective_in = 9.5 (was ")
+        .says("; fcc.travel.pedal_in = 2 (was ")
         .says("apart from 12.");
     verify(&out).ends(OK).says("from tick 3000 (12.000 s) on");
     let info = tiltrotor(&["log", "info", text(&out)]).ends(OK);
@@ -326,7 +327,9 @@ fn what_if_refuses_what_is_no_number_of_the_aircraft() {
     whatif("fcc.travel.pedals_in=2").says("did you mean fcc.travel.pedal_in");
     whatif("fcc.travel.pedal_in=fast").says("not a value");
     whatif("fcc.travel.pedal_in=\"2\"").says("expected a number");
-    whatif("rotors.radius_ft=-2").says("aircraft.toml:").says("rotors.radius_ft: expected 3.281e-6 to");
+    whatif("rotors.radius_ft=-2")
+        .says("aircraft.toml:")
+        .says("rotors.radius_ft: expected 3.281e-6 to");
     whatif("fcc.travel.pedal_in").says("KEY=VALUE");
     whatif("fcc.travel=2").says("table of keys");
     assert!(!out.exists());

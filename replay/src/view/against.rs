@@ -455,7 +455,8 @@ impl Page {
             let values = rows.iter().flat_map(|row| row.plots[from..to].iter().copied());
             let values: Vec<f64> = values.collect();
             let entity = format!("delta/{}", graph.entity);
-            self.canvas.see(&entity, values.iter().copied());
+            let drawn = ticks.iter().zip(values.chunks(graph.lines.len()));
+            self.canvas.see(&entity, drawn.flat_map(|(tick, row)| graph.drawn(*tick, row)));
             let columns = Scalars::new(values)
                 .columns(std::iter::repeat_n(graph.lines.len(), rows.len()))
                 .map(Vec::from_iter);

@@ -13,7 +13,7 @@ use super::blueprint;
 use super::columns::Columns;
 use super::layout::Layout;
 use super::look::Look;
-use super::parts::Plan;
+use super::parts::{Plan, PointDrawn};
 use super::stamp::APPLICATION;
 use super::still::send_static_scene;
 
@@ -97,9 +97,9 @@ impl Canvas {
         }
     }
 
-    /// Notes values that a graph draws, for its title.
-    pub fn see(&mut self, entity: &str, values: impl Iterator<Item = f64>) {
-        self.plan.see(entity, values);
+    /// Notes what a graph draws, for its title.
+    pub fn see(&mut self, entity: &str, points: impl Iterator<Item = PointDrawn>) {
+        self.plan.see(entity, points);
     }
 
     /// Whether the layout has the numbers of both rotors.

@@ -27,6 +27,8 @@ pub struct Ending {
     /// Whether it is the hull on the ground; else numbers that are none.
     is_crash: bool,
     words: &'static str,
+    /// How fast it sank in the tick that was seen before, m/s.
+    sink_mps: Option<f64>,
     /// Where it was.
     pub position_m: Vec3<Ned>,
 }
@@ -39,7 +41,9 @@ impl Ending {
 
     /// What it is, and when it began.
     pub fn words(&self) -> String {
-        format!("{} at {:.2} s: {}", self.name(), self.tick as f64 * STEP_S, self.words)
+        let sink = self.sink_mps.filter(|sink_mps| self.is_crash && *sink_mps > 0.0);
+        let sink = sink.map_or_else(String::new, |mps| format!(", sinking {mps:.1} m/s"));
+        format!("{} at {:.2} s: {}{sink}", self.name(), self.tick as f64 * STEP_S, self.words)
     }
 
     /// What it is, and from when to when.
@@ -79,6 +83,8 @@ pub struct Facts {
     verdict: String,
     /// When it ended before its end, and went on.
     endings: Vec<Ending>,
+    /// How fast it sank in the last tick seen, m/s.
+    sink_mps: Option<f64>,
     /// The last tick that another state took the place of.
     restarted: Option<u64>,
     /// How its ticks kept time, as far as they have times.
@@ -108,7 +114,7 @@ impl Pace {
             (0, _) => None,
             (_, 0) => None,
             _ => Some(format!(
-                "real time: {overruns} of {ticks} ticks over their {} ms, the latest by {:.1} ms at {:.1} s",
+                "real time: {overruns} of {ticks} ticks overran {} ms, worst {:.1} ms late at {:.1} s",
                 STEP_NS / 1_000_000,
                 late_ns as f64 * 1e-6,
                 tick as f64 * STEP_S
@@ -128,6 +134,7 @@ impl Facts {
         let (first, last) = self.span.unwrap_or((outputs.tick, outputs.tick));
         self.span = Some((first.min(outputs.tick), last.max(outputs.tick)));
         // What was flown before the last restart may be seen after it is known.
+        let sink_mps = self.sink_mps.replace(outputs.velocity_mps.z);
         let is_old = self.restarted.is_some_and(|tick| outputs.tick <= tick);
         if is_old || self.over().is_some() {
             return false;
@@ -139,6 +146,7 @@ impl Facts {
             until: None,
             is_crash: met.flag == Validity::HULL,
             words: met.words,
+            sink_mps,
             position_m: outputs.position_m,
         });
         true
@@ -147,6 +155,7 @@ impl Facts {
     /// Another state took the place of the one at a tick; whether that one meant nothing.
     pub fn restart(&mut self, tick: u64) -> bool {
         self.restarted = Some(tick);
+        self.sink_mps = None;
         let over = self.endings.last_mut().filter(|ending| ending.until.is_none());
         over.map(|ending| ending.until = Some(tick.max(ending.tick))).is_some()
     }
@@ -225,17 +234,20 @@ impl Facts {
     /// The lines below a flight's name.
     fn lines(&self, flown: &str) -> Vec<String> {
         let mut lines = self.told_endings();
-        let span = self.span.filter(|_| !self.live).map(|(first, last)| {
-            format!("{:.1} to {:.1} s", first as f64 * STEP_S, last as f64 * STEP_S)
+        let span = self.span.map(|(first, last)| {
+            let [first_s, last_s] = [first, last].map(|tick| tick as f64 * STEP_S);
+            match first_s {
+                _ if self.live => format!("as of {last_s:.1} s"),
+                first_s if first_s < 0.05 => format!("{last_s:.1} s"),
+                _ => format!("{first_s:.1} to {last_s:.1} s"),
+            }
         });
         let fast = self.pace.is_fast().then(|| "not in real time".to_string());
-        let joined = |parts: [Option<String>; 3]| {
-            let parts: Vec<String> =
-                parts.into_iter().flatten().filter(|words| !words.is_empty()).collect();
-            parts.join(" · ")
-        };
+        let when = [Some(self.flown(flown)), span, fast];
+        let when: Vec<String> =
+            when.into_iter().flatten().filter(|words| !words.is_empty()).collect();
         lines.extend(self.corridor());
-        lines.push(joined([Some(self.flown(flown)), span, fast]));
+        lines.push(when.join(", "));
         lines.extend((!self.verdict.is_empty()).then(|| format!("log {}", self.verdict)));
         lines.extend(self.pace.words());
         lines.retain(|line| !line.is_empty());
@@ -333,9 +345,9 @@ mod tests {
             assert!(!facts.add(&Outputs { tick, ..Outputs::default() }));
         }
         facts.judge("exact: all 500 ticks");
-        assert!(alone(&about(), &facts).contains("UTC · 0.0 to 2.0 s"));
+        assert!(alone(&about(), &facts).contains("UTC, 2.0 s"));
         facts.flown_by("X_52");
-        assert!(alone(&about(), &facts).contains("UTC by X\\_52 · 0.0 to 2.0 s"));
+        assert!(alone(&about(), &facts).contains("UTC by X\\_52, 2.0 s"));
         assert!(!alone(&about(), &facts).contains("corridor"));
         facts.add_margin(250, 5.0);
         facts.add_margin(500, 4.0);
@@ -346,9 +358,9 @@ mod tests {
         let outside = "**outside the conversion corridor** by up to 1.9 kt, at 3.0 s";
         assert!(alone(&about(), &facts).contains(outside));
         let live = Facts { live: true, ..facts.clone() };
-        assert!(!alone(&about(), &live).contains("0.0 to 2.0 s"));
+        assert!(alone(&about(), &live).contains("UTC by X\\_52, as of 2.0 s"));
         let page = alone(&about(), &facts);
-        for words in ["my\\_flight", "Bell XV-15", "2026-11-26", "to 2.0 s", "exact: all 500"] {
+        for words in ["my\\_flight", "Bell XV-15", "2026-11-26", "X\\_52, 2.0 s", "exact: all 500"] {
             assert!(page.contains(words), "{words} in {page}");
         }
         assert!(!page.contains("CRASH") && !page.contains("real time"), "{page}");
@@ -356,7 +368,7 @@ mod tests {
         assert!(alone(&about(), &facts).contains("not in real time"));
         facts.time(&TimingRecord { tick: 500, late_ns: 1_500_000, ..TimingRecord::default() });
         facts.time(&TimingRecord { overrun: 1, ..TimingRecord::default() });
-        let told = "real time: 1 of 3 ticks over their 4 ms, the latest by 1.5 ms at 2.0 s";
+        let told = "real time: 1 of 3 ticks overran 4 ms, worst 1.5 ms late at 2.0 s";
         assert!(alone(&about(), &facts).contains(told));
     }
 

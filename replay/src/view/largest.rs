@@ -38,7 +38,7 @@ impl Largest {
         match first_difference {
             Some((tick, what)) => {
                 let what = escaped(what);
-                let _ = write!(page, "**First difference at {}**: {what}.\n\n", at(*tick));
+                let _ = write!(page, "**States first differ at {}**: {what}.\n\n", at(*tick));
             }
             None => page.push_str("No difference: the same states to the bit.\n\n"),
         }

@@ -46,12 +46,10 @@ type OfRotors = (&'static str, usize, fn(&Outputs) -> Pair<f64>);
 const READ_OF_ROTORS: &[OfRotors] = &[
     ("thrust, kN", 2, |o| o.rotors.map(|rotor| 1e-3 * rotor.thrust_n)),
     ("torque, kN·m", 2, |o| o.rotors.map(|rotor| 1e-3 * rotor.torque_n_m)),
-    ("rpm", 0, |o| Pair::both(o.rotor_speed_radps * RPM_PER_RADPS)),
     ("collective, °", 1, |o| o.actuators.collective_rad.map(degrees)),
     ("cyclic forward, °", 1, |o| o.actuators.cyclic_forward_rad.map(degrees)),
     ("tip path aft, °", 1, |o| o.rotors.map(|rotor| degrees(rotor.tilt_aft_rad))),
     ("outboard, °", 1, |o| o.rotors.map(|rotor| degrees(rotor.tilt_outboard_rad))),
-    ("coning, °", 1, |o| o.rotors.map(|rotor| degrees(rotor.coning_rad))),
     ("induced, m/s", 1, |o| o.rotors.map(|rotor| rotor.induced_mps)),
     ("C_T/σ", 3, |o| o.rotors.map(|rotor| rotor.blade_loading)),
 ];
@@ -113,7 +111,9 @@ pub fn page(outputs: &Outputs, over: Option<&str>) -> String {
 
 /// What is read of both rotors at a tick.
 pub fn page_of_rotors(outputs: &Outputs) -> String {
-    let mut page = String::from("| rotor |");
+    let [nacelles, gear] = modes::words(outputs);
+    let (at_s, flaps_deg) = (outputs.tick as f64 * STEP_S, degrees(outputs.actuators.flap_rad));
+    let mut page = format!("| {at_s:.2} s: {nacelles}, flaps {flaps_deg:.0}°, gear {gear} |");
     READ_OF_ROTORS.iter().for_each(|(name, ..)| {
         let _ = write!(page, " {name} |");
     });

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use engine::STEP_S;
 use engine::math::{max, min};
 
 /// Entities of all axes are below it.
@@ -21,7 +22,7 @@ pub struct Plan {
     /// Before the names of the entities of each flight.
     pub roots: Vec<String>,
     /// The range of what a graph draws, by its entity, once that is known; `None` where it draws nothing.
-    pub ranges: BTreeMap<String, Option<[f64; 2]>>,
+    pub ranges: BTreeMap<String, Option<Range>>,
 }
 
 impl Plan {
@@ -32,11 +33,14 @@ impl Plan {
     }
 
     /// Notes values that a graph draws.
-    pub fn see(&mut self, entity: &str, values: impl Iterator<Item = f64>) {
+    pub fn see(&mut self, entity: &str, points: impl Iterator<Item = PointDrawn>) {
         let range = self.ranges.entry(entity.into()).or_default();
-        for value in values.filter(|value| value.is_finite()) {
-            let [least, most] = range.unwrap_or([value, value]);
-            *range = Some([min(least, value), max(most, value)]);
+        for (tick, line, value) in points.filter(|(.., value)| value.is_finite()) {
+            let range = range.get_or_insert(Range { least: value, most: value, tick, line });
+            if value.abs() > range.size() {
+                (range.tick, range.line) = (tick, line);
+            }
+            (range.least, range.most) = (min(range.least, value), max(range.most, value));
         }
     }
 
@@ -46,8 +50,8 @@ impl Plan {
             None => title.into(),
             Some(None) => format!("{title} · none in this flight"),
             Some(Some(range)) => {
-                let [least, most] = told(*range);
-                format!("{title} · {least} to {most}")
+                let line = if self.is_comparison() { "" } else { range.line };
+                format!("{title} · {}", told(range, line))
             }
         }
     }
@@ -63,22 +67,51 @@ impl Plan {
     }
 }
 
-/// Both ends of a range, as many decimals as make three figures of the larger.
-fn told(range: [f64; 2]) -> [String; 2] {
-    let size = max(range[0].abs(), range[1].abs());
-    let decimals = match size {
-        size if size >= 100.0 => 0,
-        size if size >= 10.0 => 1,
-        size if size >= 1.0 => 2,
-        size if size >= 1e-2 => 3,
-        _ => return range.map(|end| if end == 0.0 { "0".into() } else { format!("{end:.1e}") }),
+/// A tick, the name of a line where its graph has several, and its value.
+pub type PointDrawn = (u64, &'static str, f64);
+
+/// From where to where the lines of a graph go.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    least: f64,
+    most: f64,
+    /// When the end that is further from 0 was reached first.
+    tick: u64,
+    /// By which line.
+    line: &'static str,
+}
+
+impl Range {
+    fn size(&self) -> f64 {
+        max(self.least.abs(), self.most.abs())
+    }
+}
+
+/// A range, the end that is further from 0 last, with its time: as many decimals as make three figures of it.
+fn told(range: &Range, line: &str) -> String {
+    let decimals = match range.size() {
+        size if size >= 100.0 => Some(0),
+        size if size >= 10.0 => Some(1),
+        size if size >= 1.0 => Some(2),
+        size if size >= 1e-2 => Some(3),
+        _ => None,
     };
-    range.map(|end| {
-        let text = format!("{end:.decimals$}");
+    let figure = |end: f64| {
+        let text = decimals.map_or_else(|| format!("{end:.1e}"), |of| format!("{end:.of$}"));
         // What rounds to nothing has no sign.
-        let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
+        let is_nothing = end == 0.0 || text.trim_start_matches(['-', '0', '.']).is_empty();
         if is_nothing { "0".into() } else { text }
-    })
+    };
+    let (near, far) = if range.most.abs() >= range.least.abs() {
+        (figure(range.least), figure(range.most))
+    } else {
+        (figure(range.most), figure(range.least))
+    };
+    if near == far {
+        return format!("{far} throughout");
+    }
+    let line = if line.is_empty() { String::new() } else { format!(" ({line})") };
+    format!("{near} to {far} at {:.1} s{line}", range.tick as f64 * STEP_S)
 }
 
 /// A part of the screen: a view, or several parts in tabs, from left to right, or from top to bottom.
@@ -150,17 +183,20 @@ mod tests {
     #[test]
     fn a_title_says_from_where_to_where_its_lines_go() {
         let mut plan = Plan::new(&[""]);
+        let mut ticks = 0;
         let mut of = |values: &[f64]| {
-            plan.see("plots/x", values.iter().copied());
+            ticks += 250;
+            plan.see("plots/x", values.iter().map(|value| (ticks, "left", *value)));
             plan.titled("Thrust, kN", "plots/x")
         };
         assert_eq!(of(&[f64::NAN]), "Thrust, kN · none in this flight");
-        assert_eq!(of(&[0.0]), "Thrust, kN · 0 to 0");
-        assert_eq!(of(&[-2e-4]), "Thrust, kN · -2.0e-4 to 0");
-        assert_eq!(of(&[0.0371]), "Thrust, kN · 0 to 0.037");
-        assert_eq!(of(&[-1.234, f64::INFINITY]), "Thrust, kN · -1.23 to 0.04");
-        assert_eq!(of(&[31.26]), "Thrust, kN · -1.2 to 31.3");
-        assert_eq!(of(&[1234.5]), "Thrust, kN · -1 to 1234");
+        assert_eq!(of(&[0.0]), "Thrust, kN · 0 throughout");
+        assert_eq!(of(&[-2e-4]), "Thrust, kN · 0 to -2.0e-4 at 3.0 s (left)");
+        assert_eq!(of(&[0.0371]), "Thrust, kN · 0 to 0.037 at 4.0 s (left)");
+        assert_eq!(of(&[-1.234, f64::INFINITY]), "Thrust, kN · 0.04 to -1.23 at 5.0 s (left)");
+        assert_eq!(of(&[31.26]), "Thrust, kN · -1.2 to 31.3 at 6.0 s (left)");
+        assert_eq!(of(&[31.26]), "Thrust, kN · -1.2 to 31.3 at 6.0 s (left)");
+        assert_eq!(of(&[1234.5]), "Thrust, kN · -1 to 1234 at 8.0 s (left)");
         assert_eq!(plan.titled("Torque, kN·m", "plots/y"), "Torque, kN·m");
     }
 }

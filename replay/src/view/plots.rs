@@ -7,6 +7,8 @@ use engine::pair::Pair;
 use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees};
 use logs::records::TimingRecord;
 
+use super::parts::PointDrawn;
+
 /// Lines over the same time, in one unit. Each graph is one entity with as many values in a row as lines.
 pub struct Graph<T: 'static> {
     /// Entity.
@@ -34,6 +36,13 @@ pub struct Line<T: 'static> {
 impl<T> Graph<T> {
     const fn new(entity: &'static str, title: &'static str, lines: &'static [Line<T>]) -> Self {
         Self { entity, title, lines }
+    }
+
+    /// Its values at a tick, each with the name of its line where there are several; not those of limits.
+    pub fn drawn(&self, tick: u64, values: &[f64]) -> impl Iterator<Item = PointDrawn> {
+        let several = self.lines.len() > 1;
+        let lines = self.lines.iter().zip(values).filter(|(line, _)| !line.is_limit);
+        lines.map(move |(line, value)| (tick, if several { line.name } else { "" }, *value))
     }
 
     /// Its name and its unit; that of a ratio is empty.

@@ -6,7 +6,7 @@ use engine::frames::{Ned, Vec3};
 use engine::inputs::{DeviceEvent, World};
 use logs::cdr;
 use logs::records::TimingRecord;
-use rerun::{LineStrips3D, Scalars, TimeColumn};
+use rerun::{LineStrips3D, Scalars};
 
 use super::airframe::Mounts;
 use super::basics::{Severity, TICKS_PER_ROW, severity};
@@ -28,7 +28,7 @@ use super::raw::Raw;
 use super::scene::{PathPoint, send_moving};
 use super::scenery::StartMark;
 use super::still::send_path;
-use crate::judgement::Judgement;
+use crate::judgement::{Judgement, Outcome};
 
 /// Rows gathered before they are written, at first: ten seconds, about a megabyte.
 const ROWS_PER_CHUNK: usize = 500;
@@ -350,7 +350,14 @@ impl Track {
     /// Notes what the log is, which begins at that tick.
     pub fn judge(&mut self, canvas: &mut Canvas, tick: u64, judgement: &Judgement) {
         let (level, words) = (severity(judgement), judgement.words.as_str());
-        self.facts.judge(words);
+        let known = match judgement.outcome {
+            Outcome::Exact => {
+                let ticks = words.split(", digest").next().unwrap_or(words);
+                &format!("unaltered, reflown to the same bits; {ticks}")
+            }
+            _ => words,
+        };
+        self.facts.judge(known);
         self.event(canvas, Happened { tick, level, words, number: None });
     }
 
@@ -391,14 +398,13 @@ impl Track {
 
     /// Writes the rows gathered.
     pub fn flush(&mut self, canvas: &mut Canvas) {
-        self.raw.flush(canvas, &self.look, &mut self.axes_told);
+        self.raw.flush(canvas, &self.look, &self.aircraft.cockpit, &mut self.axes_told);
         let room = Vec::with_capacity(self.rows_per_chunk());
         let rows = std::mem::replace(&mut self.rows, room);
         if rows.is_empty() {
             return;
         }
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
-        let times = times(&ticks);
         self.pages.flush(canvas, NUMBERS);
         self.rotor_pages.flush(canvas, NUMBERS_OF_ROTORS);
         if self.live {
@@ -406,7 +412,7 @@ impl Track {
         } else {
             self.send_motion(canvas, &rows);
         }
-        send_graphs(canvas, &self.look, GRAPHS, &rows, &times);
+        send_graphs(canvas, &self.look, GRAPHS, &rows, &ticks);
         if self.own.iter().any(|(_, field)| field.channel == Channel::Outputs) {
             let messages: Vec<Vec<u8>> =
                 rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
@@ -432,7 +438,7 @@ impl Track {
             return;
         }
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
-        send_graphs(canvas, &self.look, TIMES, &rows, &times(&ticks));
+        send_graphs(canvas, &self.look, TIMES, &rows, &ticks);
         if self.own.iter().any(|(_, field)| field.channel == Channel::Timing) {
             let messages: Vec<Vec<u8>> =
                 rows.iter().filter_map(|row| cdr::encode(row).ok()).collect();
@@ -470,17 +476,18 @@ fn send_graphs<T>(
     look: &Look,
     graphs: &[Graph<T>],
     rows: &[T],
-    times: &[TimeColumn],
+    ticks: &[u64],
 ) {
+    let times = times(ticks);
     for graph in graphs {
         let values = rows.iter().flat_map(|row| graph.lines.iter().map(|line| (line.of)(row)));
         let values: Vec<f64> = values.collect();
-        let drawn = values.iter().zip(graph.lines.iter().cycle());
-        canvas.see(graph.entity, drawn.filter(|(_, line)| !line.is_limit).map(|(value, _)| *value));
+        let drawn = ticks.iter().zip(values.chunks(graph.lines.len()));
+        canvas.see(graph.entity, drawn.flat_map(|(tick, row)| graph.drawn(*tick, row)));
         let columns = Scalars::new(values)
             .columns(std::iter::repeat_n(graph.lines.len(), rows.len()))
             .map(Vec::from_iter);
-        canvas.send(&look.entity(graph.entity), times, columns);
+        canvas.send(&look.entity(graph.entity), &times, columns);
     }
 }
 
