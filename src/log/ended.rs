@@ -16,7 +16,9 @@ pub fn ended(messages: &Messages, log: &Path) -> Status {
             Status::NeverClosed
         }
         Ending::Damaged(why) => {
-            complain!("tiltrotor: {name}: damaged: {why}");
+            let is_nothing = messages.facts().is_empty() && messages.files().is_empty();
+            let what = if is_nothing { "not a flight log" } else { "damaged" };
+            complain!("tiltrotor: {name}: {what}: {why}");
             Status::Unusable
         }
     }

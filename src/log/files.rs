@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use logs::Messages;
+use logs::{Ending, Messages};
 
 use super::ended::ended;
 use crate::console::Stdout;
@@ -28,8 +28,11 @@ pub fn run(args: &Args) -> Result<Status> {
     while messages.next_message().is_some() {}
     match &args.extract {
         Some(wanted) => print(&messages, wanted).with_context(|| name.to_string())?,
+        // Of what holds nothing only that is told.
+        None if messages.files().is_empty() && messages.ending() != Ending::Closed => {}
         None => {
-            say!("{name}: {} files", messages.files().len());
+            let count = messages.files().len();
+            say!("{name}: {count} file{}", if count == 1 { "" } else { "s" });
             for (file, data) in messages.files() {
                 let lines = data.iter().filter(|&&byte| byte == b'\n').count();
                 say!("  {file:<16} {lines} lines, {} bytes", data.len());

@@ -439,6 +439,11 @@ fn what_is_no_flight_is_refused_in_one_line() {
         verify(&path).refused().says(why).says(text(&path));
         tiltrotor(&["log", "info", text(&path)]).refused().says(why);
         tiltrotor(&["replay", text(&path)]).refused().says(why);
+        if why == "not an MCAP file" {
+            for verb in ["files", "cat", "fields"] {
+                tiltrotor(&["log", verb, text(&path)]).refused().says("not a flight log");
+            }
+        }
     }
     for command in [&["log", "info"][..], &["replay"]] {
         tiltrotor(&[command, &[text(&place)]].concat()).refused().says("a folder");

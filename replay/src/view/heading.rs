@@ -41,9 +41,14 @@ impl Ending {
 
     /// What it is, and when it began.
     pub fn words(&self) -> String {
-        let sink = self.sink_mps.filter(|sink_mps| self.is_crash && *sink_mps > 0.0);
-        let sink = sink.map_or_else(String::new, |mps| format!(", sinking {mps:.1} m/s"));
+        let sink = self.sink().map_or_else(String::new, |sink| format!(", {sink}"));
         format!("{} at {:.2} s: {}{sink}", self.name(), self.tick as f64 * STEP_S, self.words)
+    }
+
+    /// How fast a wreck came down.
+    fn sink(&self) -> Option<String> {
+        let sink_mps = self.sink_mps.filter(|sink_mps| self.is_crash && *sink_mps > 0.0)?;
+        Some(format!("sinking {sink_mps:.1} m/s"))
     }
 
     /// What it is, and from when to when.
@@ -56,7 +61,11 @@ impl Ending {
 
     /// In bold.
     fn told(&self) -> String {
-        let words = self.words();
+        // There is room for a line.
+        let words = match self.sink() {
+            Some(sink) => format!("CRASH at {:.2} s, {sink}", self.tick as f64 * STEP_S),
+            None => self.words(),
+        };
         match self.until {
             Some(tick) => {
                 let at_s = tick as f64 * STEP_S;
@@ -103,16 +112,11 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Whether nothing waited for the clock.
-    fn is_fast(self) -> bool {
-        self.ticks > 0 && self.latest.1 == 0
-    }
-
     fn words(self) -> Option<String> {
         let Self { ticks, overruns, latest: (tick, late_ns) } = self;
         match (ticks, late_ns) {
             (0, _) => None,
-            (_, 0) => None,
+            (_, 0) => Some("not in real time".into()),
             _ => Some(format!(
                 "real time: {overruns} of {ticks} ticks overran {} ms, worst {:.1} ms late at {:.1} s",
                 STEP_NS / 1_000_000,
@@ -242,8 +246,7 @@ impl Facts {
                 _ => format!("{first_s:.1} to {last_s:.1} s"),
             }
         });
-        let fast = self.pace.is_fast().then(|| "not in real time".to_string());
-        let when = [Some(self.flown(flown)), span, fast];
+        let when = [Some(self.flown(flown)), span];
         let when: Vec<String> =
             when.into_iter().flatten().filter(|words| !words.is_empty()).collect();
         lines.extend(self.corridor());
@@ -360,7 +363,8 @@ mod tests {
         let live = Facts { live: true, ..facts.clone() };
         assert!(alone(&about(), &live).contains("UTC by X\\_52, as of 2.0 s"));
         let page = alone(&about(), &facts);
-        for words in ["my\\_flight", "Bell XV-15", "2026-11-26", "X\\_52, 2.0 s", "exact: all 500"] {
+        for words in ["my\\_flight", "Bell XV-15", "2026-11-26", "X\\_52, 2.0 s", "exact: all 500"]
+        {
             assert!(page.contains(words), "{words} in {page}");
         }
         assert!(!page.contains("CRASH") && !page.contains("real time"), "{page}");

@@ -81,7 +81,7 @@ impl Layout {
             Self::Compare => compare(plan),
             Self::Own(own) => return own.tree(plan),
         };
-        let share = if plan.is_comparison() { 4.6 } else { 4.9 };
+        let share = if plan.is_comparison() { 4.6 } else { 5.25 };
         let numbers = match self {
             Self::Rotor if !plan.is_comparison() => {
                 let both = vec![view(Shown::NumbersOfRotors), view(Shown::Numbers)];
@@ -120,8 +120,11 @@ const LOADS: [Tab; 5] = [
 const TIMES_OF_TICKS: Tab = ("Every tick", &["sent", "step", "latency"]);
 const SLIPS: Tab = ("Slips and overruns", &["slip", "overrun"]);
 
+/// So many letters of a title have room where two plots share three fifths of a window.
+const NARROW: usize = 53;
+
 /// Of the plots and the lanes below them: all lanes are seen in a window 900 points high.
-const PLOTS_AND_LANES: [f32; 2] = [10.8, 12.2];
+const PLOTS_AND_LANES: [f32; 2] = [11.4, 12.2];
 
 /// Behind the aircraft, to its left and above it.
 const BEHIND_M: [f32; 3] = [-16.0, -12.5, -7.0];
@@ -173,15 +176,20 @@ fn graph(name: &str) -> Option<(&'static str, &'static str)> {
     all.find(|(_, entity)| entity.rsplit('/').next() == Some(name))
 }
 
-/// A graph's plot, of every flight.
-fn plot(plan: &Plan, name: &str) -> Option<Part> {
+/// A graph's plot, of every flight; so many letters of a title have room.
+fn plot(plan: &Plan, name: &str, room: usize) -> Option<Part> {
     let (title, entity) = graph(name)?;
-    let title = plan.titled(title, entity);
+    let title = plan.titled(title, entity, room);
     Some(view(Shown::Plot { title, queries: plan.each(entity), legend: true }))
 }
 
-fn tab(plan: &Plan, (name, graphs): Tab) -> Part {
-    down(name, &[], graphs.iter().filter_map(|graph| plot(plan, graph)).collect())
+fn tab(plan: &Plan, tab: Tab) -> Part {
+    // In a third of a window 1400 points wide.
+    tab_with_room(plan, tab, if plan.is_comparison() { NARROW } else { 66 })
+}
+
+fn tab_with_room(plan: &Plan, (name, graphs): Tab, room: usize) -> Part {
+    down(name, &[], graphs.iter().filter_map(|graph| plot(plan, graph, room)).collect())
 }
 
 fn tabs(plan: &Plan, name: &str, all: &[Tab]) -> Part {
@@ -190,8 +198,8 @@ fn tabs(plan: &Plan, name: &str, all: &[Tab]) -> Part {
 
 /// From what devices said over what the pilot asked for and the SCAS added to what the surfaces did.
 fn control_chain(plan: &Plan) -> Part {
-    let asked = tab(plan, ("Asked", &["raw", "pilot"]));
-    let done = tab(plan, ("Done", &["scas", "elevator"]));
+    let asked = tab_with_room(plan, ("Asked", &["raw", "pilot"]), NARROW);
+    let done = tab_with_room(plan, ("Done", &["scas", "elevator"]), NARROW);
     across("Control chain", &[], vec![asked, done])
 }
 
@@ -268,14 +276,14 @@ const COMPARED: [Tab; 18] = [
     ROTORS,
     INFLOW,
     FLAPPING,
-    ENGINES,
+    ("Engines", &["power", "fuel_flow"]),
     LOADS[0],
     LOADS[1],
     LOADS[2],
     LOADS[3],
     LOADS[4],
-    GEAR,
-    RATES,
+    ("Gear", &["gear_push", "gear_compression"]),
+    ("Rates", &["rates", "flow"]),
     AIR,
     ("Raw counts", &["raw"]),
 ];
@@ -287,7 +295,7 @@ fn compare(plan: &Plan) -> Part {
         let deltas: Vec<Part> = delta
             .map(|(title, entity)| {
                 let entity = format!("delta/{entity}");
-                let title = plan.titled(&format!("Δ {title}"), &entity);
+                let title = plan.titled(&format!("Δ {title}"), &entity, NARROW);
                 view(Shown::Plot { title, queries: vec![format!("/{entity}")], legend: true })
             })
             .collect();
@@ -368,8 +376,9 @@ mod tests {
         }
     }
 
-    /// In a window 900 points high plots that are below each other share 297 points, and 545 where two flights
-    /// are compared; the title, the edge and half of the axis take 30 of each, and each line of a legend 22.
+    /// In a window 900 points high plots that are below each other share 310 points, and 545 where two flights
+    /// are compared. The title takes 26 of each; the viewer gives a legend what is left but for 40, or 66, and a line
+    /// takes 22 of it.
     #[test]
     fn legends_have_room() {
         let chain = [("Asked", &["raw", "pilot"][..]), ("Done", &["scas", "elevator"])];
@@ -381,8 +390,10 @@ mod tests {
                 let lines: usize = GRAPHS.iter().map(|g| lines_of(g.entity, g.lines.len())).sum();
                 let of_times: usize = TIMES.iter().map(|g| lines_of(g.entity, g.lines.len())).sum();
                 let lines = lines + of_times;
-                assert!(22 * lines <= 297 / names.len() - 30, "{tab}: {name}");
-                assert!(22 * 2 * lines <= 545 / names.len() - 30, "{tab}: {name}, of two flights");
+                let room = |points: usize| (points / names.len() - 66).max(66);
+                assert!(22 * lines <= room(310), "{tab}: {name}");
+                let of_two = COMPARED.iter().any(|(compared, _)| *compared == tab);
+                assert!(!of_two || 44 * lines <= room(545), "{tab}: {name}, of two flights");
             }
         }
     }

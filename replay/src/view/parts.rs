@@ -44,14 +44,16 @@ impl Plan {
         }
     }
 
-    /// A graph's title with its range: a low plot has room for one number at its axis.
-    pub fn titled(&self, title: &str, entity: &str) -> String {
+    /// A graph's title with its range, for a low plot has room for one number at its axis; so many letters have
+    /// room.
+    pub fn titled(&self, title: &str, entity: &str, room: usize) -> String {
         match self.ranges.get(entity) {
             None => title.into(),
             Some(None) => format!("{title} · none in this flight"),
             Some(Some(range)) => {
-                let line = if self.is_comparison() { "" } else { range.line };
-                format!("{title} · {}", told(range, line))
+                let long = format!("{title} · {}", told(range, range.line));
+                let fits = long.chars().count() <= room;
+                if fits { long } else { format!("{title} · {}", told(range, "")) }
             }
         }
     }
@@ -187,7 +189,7 @@ mod tests {
         let mut of = |values: &[f64]| {
             ticks += 250;
             plan.see("plots/x", values.iter().map(|value| (ticks, "left", *value)));
-            plan.titled("Thrust, kN", "plots/x")
+            plan.titled("Thrust, kN", "plots/x", 60)
         };
         assert_eq!(of(&[f64::NAN]), "Thrust, kN · none in this flight");
         assert_eq!(of(&[0.0]), "Thrust, kN · 0 throughout");
@@ -197,6 +199,7 @@ mod tests {
         assert_eq!(of(&[31.26]), "Thrust, kN · -1.2 to 31.3 at 6.0 s (left)");
         assert_eq!(of(&[31.26]), "Thrust, kN · -1.2 to 31.3 at 6.0 s (left)");
         assert_eq!(of(&[1234.5]), "Thrust, kN · -1 to 1234 at 8.0 s (left)");
-        assert_eq!(plan.titled("Torque, kN·m", "plots/y"), "Torque, kN·m");
+        assert_eq!(plan.titled("Torque, kN·m", "plots/y", 60), "Torque, kN·m");
+        assert_eq!(plan.titled("Thrust, kN", "plots/x", 30), "Thrust, kN · -1 to 1234 at 8.0 s");
     }
 }

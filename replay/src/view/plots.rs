@@ -210,7 +210,7 @@ pub const GRAPHS: &[Graph<Outputs>] = &[
         line("right pedal", VIOLET, |o| o.cockpit.pedal_right_norm),
         line("power lever", WHITE, |o| o.cockpit.collective_norm),
     ]),
-    Graph::new("plots/scas", "Added by the SCAS, mm of stick", &[
+    Graph::new("plots/scas", "SCAS, mm of stick", &[
         line("aft", ORANGE, |o| 1e3 * o.scas.aft_m),
         line("right", BLUE, |o| 1e3 * o.scas.right_m),
         line("right pedal", VIOLET, |o| 1e3 * o.scas.pedal_right_m),
