@@ -69,7 +69,7 @@ fn flown(identity: &Identity) -> String {
     if let Some(by) = identity.0.get(parent::MADE_BY) {
         let changes = identity.0.get(parent::CHANGES);
         let changes = changes.map_or_else(String::new, |changes| format!(", {changes}"));
-        return format!("made by {by} of {}{changes}; first flown", identity.get(parent::NAME));
+        return format!("made by {by} of {}{changes}; inputs", identity.get(parent::NAME));
     }
     let started = identity.get(Identity::STARTED).parse().ok();
     let started = started.map(DateTime::<Utc>::from_timestamp_nanos);

@@ -301,7 +301,11 @@ pub fn send_two(canvas: &mut Canvas, flights: [(&Look, &Facts); 2]) {
         let name = escaped(look.name.trim_end_matches(": "));
         // There is little room: of the verdict what it says of the whole.
         let verdict = facts.verdict.split(", ").next().unwrap_or_default();
-        let verdict = if verdict.starts_with("not reflown") { "not reflown" } else { verdict };
+        let verdict = match verdict.starts_with("not reflown") {
+            // What is proven of one by reading it.
+            true => "digests intact, not reflown",
+            false => verdict,
+        };
         let verdict = (!verdict.is_empty()).then(|| format!("log {verdict}"));
         let aircraft = (first != facts.aircraft).then(|| escaped(&facts.aircraft));
         let told = aircraft.into_iter().chain([facts.flown(flown)]);

@@ -204,20 +204,20 @@ pub const GRAPHS: &[Graph<Outputs>] = &[
         line("from the west", ORANGE, |o| o.air.wind_mps.y),
         line("turbulence up", VIOLET, |o| -o.air.turbulence_mps.z),
     ]),
-    Graph::new("plots/pilot", "Pilot's controls, norm", &[
+    Graph::new("plots/pilot", "Controls, norm", &[
         line("stick aft", ORANGE, |o| o.cockpit.stick_aft_norm),
         line("stick right", BLUE, |o| o.cockpit.stick_right_norm),
         line("right pedal", VIOLET, |o| o.cockpit.pedal_right_norm),
         line("power lever", WHITE, |o| o.cockpit.collective_norm),
     ]),
-    Graph::new("plots/scas", "SCAS, mm of stick", &[
+    Graph::new("plots/scas", "SCAS, mm", &[
         line("aft", ORANGE, |o| 1e3 * o.scas.aft_m),
         line("right", BLUE, |o| 1e3 * o.scas.right_m),
         line("right pedal", VIOLET, |o| 1e3 * o.scas.pedal_right_m),
         line("trim, aft", WHITE, |o| 1e3 * o.scas.trim_aft_m),
     ]),
     sides!("plots/nacelle", "Nacelle incidence, deg (90 helicopter)", incidence_deg),
-    Graph::new("plots/elevator", "Elevator, rudder, flap, deg", &[
+    Graph::new("plots/elevator", "Surfaces, deg", &[
         broad("elevator asked", GREY, |o| degrees(o.commands.elevator_rad)),
         line("elevator", ORANGE, |o| degrees(o.actuators.elevator_rad)),
         line("rudder right", VIOLET, |o| degrees(o.actuators.rudder_right_rad)),
