@@ -121,7 +121,7 @@ const TIMES_OF_TICKS: Tab = ("Every tick", &["sent", "step", "latency"]);
 const SLIPS: Tab = ("Slips and overruns", &["slip", "overrun"]);
 
 /// So many letters of a title have room where two plots share three fifths of a window.
-const NARROW: usize = 53;
+const NARROW: usize = 54;
 
 /// Of the plots and the lanes below them: all lanes are seen in a window 900 points high.
 const PLOTS_AND_LANES: [f32; 2] = [11.4, 12.2];
