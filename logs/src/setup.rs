@@ -173,3 +173,22 @@ macro_rules! identity {
             .with("profile", env!("TILTROTOR_PROFILE"))
     };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_flew_is_what_the_log_says_or_what_its_devices_were() {
+        let device = |mapped, name: &str| DeviceIdentity {
+            mapped,
+            name: name.into(),
+            ..DeviceIdentity::default()
+        };
+        let devices = [device(0, "mouse"), device(1, "X52"), device(1, "pedals")];
+        assert_eq!(Identity::new().who(&devices), "X52, pedals");
+        assert_eq!(Identity::new().who(&devices[..1]), "a pilot model, script or keyboard");
+        let said = Identity::new().flown_by("pilot model demo").flown_by("script kick.toml");
+        assert_eq!(said.who(&devices), "pilot model demo, script kick.toml");
+    }
+}
