@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -26,6 +26,14 @@ CALLS = {
 }
 
 posix = pytest.mark.skipif(os.name != "posix", reason="sends itself a signal")
+
+
+@pytest.fixture(autouse=True)
+def _hears_ctrl_c() -> Iterator[None]:
+    """A shell that starts programs in the background has them ignore Ctrl-C: without this a call would never end."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def _answered_s(call: Callable[[], object], after_s: float = 0.5) -> float:
