@@ -14,6 +14,7 @@ use logs::{Ending, Messages};
 use replay::{Outcome, Window};
 use wildmatch::WildMatch;
 
+use super::ended::ended;
 use crate::console::Stdout;
 use crate::numbers::whole;
 use crate::status::Status;
@@ -93,9 +94,8 @@ pub fn run(args: &Args) -> Result<Status> {
     if out.flush().is_err() {
         return Ok(Status::Done);
     }
-    if let Ending::Damaged(why) = messages.ending() {
-        complain!("tiltrotor: {name}: damaged: {why}");
-        return Ok(Status::Unusable);
+    if matches!(messages.ending(), Ending::Damaged(_)) {
+        return Ok(ended(&messages, &args.log));
     }
     if choices.is_empty() {
         bail!("{name}: no recorded channel in it");

@@ -15,7 +15,7 @@ use logs::{Ending, Messages};
 use serde_json::json;
 use wildmatch::WildMatch;
 
-use super::ended::ended;
+use super::ended::{ended, fault};
 use crate::status::Status;
 
 /// What is said of the fields of every public struct: its name, and each field with its doc comment, in order.
@@ -117,7 +117,7 @@ pub fn run(args: &Args) -> Result<Status> {
     if let Ending::Damaged(why) = messages.ending()
         && channels.is_empty()
     {
-        bail!("{name}: damaged: {why}");
+        bail!("{name}: {}: {why}", fault(&messages));
     }
     if listed == 0 {
         let there: Vec<_> = channels.keys().map(String::as_str).collect();
