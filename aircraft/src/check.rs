@@ -136,6 +136,13 @@ pub(crate) fn ranges(file: &str, tree: &Node) -> Result<(), ConfigError> {
     Ok(())
 }
 
+/// The key that names the unit, of a path that may lead into a list or to the values behind a table's arguments.
+fn quantity(path: &str) -> &str {
+    let list = path.split('[').next().unwrap_or_default();
+    let key = list.strip_suffix(".value").unwrap_or(list);
+    key.rsplit('.').next().unwrap_or_default()
+}
+
 /// Every number of the node within its bounds; members of a table have their own.
 fn within(file: &str, node: &Node, (min, max): (f64, f64)) -> Result<(), ConfigError> {
     match &node.value {
@@ -148,7 +155,7 @@ fn within(file: &str, node: &Node, (min, max): (f64, f64)) -> Result<(), ConfigE
         value => match value.number() {
             Some(found) if found < min || found > max => {
                 // As whoever wrote the key counts.
-                let (_, factor) = units::to_si(&node.key);
+                let (_, factor) = units::to_si(quantity(&node.key));
                 let [min, max, found] = [min, max, found].map(|si| si / factor);
                 Err(error(file, node, Problem::OutOfRange { min, max, found }))
             }

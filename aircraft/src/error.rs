@@ -101,7 +101,7 @@ pub enum Problem {
     #[error("expected a finite number, found {0}")]
     NotFinite(String),
     /// A number the engine could not work with.
-    #[error("expected {} to {}, found {}", figure(*min), figure(*max), figure(*found))]
+    #[error("expected {} to {}, found {}", figure(*min, 3), figure(*max, 3), figure(*found, 11))]
     OutOfRange {
         /// Least, in the unit of the key.
         min: f64,
@@ -132,9 +132,10 @@ pub enum Problem {
     Other(String),
 }
 
-/// A number in four figures.
-fn figure(number: f64) -> String {
-    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+/// A number to so many figures after the first: what was found is told as it was written, but for the rounding of
+/// its unit.
+fn figure(number: f64, figures: usize) -> String {
+    let rounded: f64 = format!("{number:.figures$e}").parse().unwrap_or(number);
     let is_plain = number == 0.0 || (1e-3..1e6).contains(&number.abs());
     if is_plain { rounded.to_string() } else { format!("{rounded:e}") }
 }

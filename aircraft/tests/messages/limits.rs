@@ -83,6 +83,16 @@ fn an_envelope_that_is_there_is_complete() {
 }
 
 #[test]
+fn a_bound_in_a_list_is_told_in_the_lists_unit() {
+    changed(
+        "envelope.airspeed",
+        "flap_kt_max",
+        &format!("flap_kt_max = {{ value = [-1.0, 170.0, 150.0, 100.0], {SOURCED}"),
+        "envelope.airspeed.flap_kt_max.value[0]: expected 1.944e-6 to 1.944e9, found -1",
+    );
+}
+
+#[test]
 fn a_limit_of_no_size() {
     changed(
         "envelope.airspeed",
