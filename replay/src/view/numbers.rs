@@ -65,13 +65,16 @@ fn head(page: &mut String, first: &str) {
     page.push('\n');
 }
 
-/// A cell of a table.
-fn cell(page: &mut String, decimals: usize, value: f64) {
-    // What rounds to nothing has no sign.
+/// A number with so many decimals; what rounds to nothing has no sign.
+pub fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
-    let text = if is_nothing { text.trim_start_matches('-') } else { &text };
-    let _ = write!(page, " {text} |");
+    if is_nothing { text.trim_start_matches('-').into() } else { text }
+}
+
+/// A cell of a table.
+fn cell(page: &mut String, decimals: usize, value: f64) {
+    let _ = write!(page, " {} |", rounded(value, decimals));
 }
 
 /// A line of a table.

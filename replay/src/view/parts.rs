@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use engine::STEP_S;
 use engine::math::{max, min};
 
+use super::numbers::rounded;
+
 /// Entities of all axes are below it.
 pub const RAW: &str = "raw";
 /// Entity of the page above everything.
@@ -99,10 +101,9 @@ fn told(range: &Range, line: &str) -> String {
         _ => None,
     };
     let figure = |end: f64| {
-        let text = decimals.map_or_else(|| format!("{end:.1e}"), |of| format!("{end:.of$}"));
-        // What rounds to nothing has no sign.
-        let is_nothing = end == 0.0 || text.trim_start_matches(['-', '0', '.']).is_empty();
-        if is_nothing { "0".into() } else { text }
+        let text = decimals.map_or_else(|| format!("{end:.1e}"), |decimals| rounded(end, decimals));
+        // Of nothing no decimals are told.
+        if text.parse() == Ok(0.0) { "0".into() } else { text }
     };
     let (near, far) = if range.most.abs() >= range.least.abs() {
         (figure(range.least), figure(range.most))
