@@ -89,7 +89,12 @@ impl Flying {
         }
         let shape = aircraft::urdf(&self.stepped.aircraft);
         self.stepped
-            .record(Path::new(path), values.flag("log_force"), identity().flown_by("FMU importer"), &shape)
+            .record(
+                Path::new(path),
+                values.flag("log_force"),
+                identity().flown_by("FMU importer"),
+                &shape,
+            )
             .map_err(|why| format!("log_file: {path}: {}", told(why)))
     }
 
