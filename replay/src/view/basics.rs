@@ -1,4 +1,4 @@
-//! What everything that is drawn has in common: times, colours of the sides, what may go wrong.
+//! What everything that is drawn has in common: times, colours of the sides, numbers, what may go wrong.
 
 use std::path::PathBuf;
 
@@ -44,6 +44,13 @@ pub enum ViewError {
         /// What rerun says.
         source: SinkFlushError,
     },
+}
+
+/// A number with so many decimals; what rounds to nothing has no sign.
+pub fn rounded(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
+    if is_nothing { text.trim_start_matches('-').into() } else { text }
 }
 
 /// How much an event matters.

@@ -7,6 +7,7 @@ use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees};
 use engine::{Outputs, STEP_S};
 use rerun::{MediaType, RecordingStream, RecordingStreamResult, TextDocument};
 
+use super::basics::rounded;
 use super::canvas::{Canvas, times};
 use super::heading::escaped;
 use super::modes;
@@ -63,13 +64,6 @@ fn head(page: &mut String, first: &str) {
     page.push_str(" flown as | flaps | gear |\n|---|");
     page.push_str(&"---|".repeat(READ.len() + 3));
     page.push('\n');
-}
-
-/// A number with so many decimals; what rounds to nothing has no sign.
-pub fn rounded(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
-    if is_nothing { text.trim_start_matches('-').into() } else { text }
 }
 
 /// A cell of a table.

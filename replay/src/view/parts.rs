@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use engine::STEP_S;
 use engine::math::{max, min};
 
-use super::numbers::rounded;
+use super::basics::rounded;
 
 /// Entities of all axes are below it.
 pub const RAW: &str = "raw";
