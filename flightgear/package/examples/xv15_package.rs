@@ -120,30 +120,55 @@ mod tests {
         }
     }
 
-    /// How long a part of the model is along the aircraft, m.
-    fn length_m(files: &[File], part: &str) -> f64 {
-        let model = files.iter().find(|file| file.path == "Models/xv15.ac").expect("the model");
-        let text = std::str::from_utf8(&model.bytes).expect("text");
-        let (_, of_part) = text.split_once(&format!("name \"{part}\"")).expect(part);
-        let (_, vertices) = of_part.split_once("numvert ").expect("vertices");
-        let count = vertices.lines().next().and_then(|count| count.parse().ok()).expect("a count");
-        let along = vertices.lines().skip(1).take(count).map(|vertex| {
-            vertex.split(' ').next().and_then(|x| x.parse::<f64>().ok()).expect("a number")
-        });
-        let along: Vec<f64> = along.collect();
-        let least = along.iter().copied().fold(f64::INFINITY, engine::math::min);
-        along.iter().copied().fold(f64::NEG_INFINITY, engine::math::max) - least
+    fn text<'a>(files: &'a [File], path: &str) -> &'a str {
+        let file = files.iter().find(|file| file.path == path).expect(path);
+        std::str::from_utf8(&file.bytes).expect("text")
     }
 
+    /// The parts of the model: for each the least and the greatest place along the axes of its file, m.
+    fn parts(files: &[File]) -> Vec<(&str, [[f64; 2]; 3])> {
+        let objects = text(files, "Models/xv15.ac").split("OBJECT poly\nname \"").skip(1);
+        let extent = |object| {
+            let (name, rest) = str::split_once(object, '"').expect("a name");
+            let (_, vertices) = rest.split_once("numvert ").expect("vertices");
+            let count =
+                vertices.lines().next().and_then(|count| count.parse().ok()).expect("a count");
+            let mut extent = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+            for vertex in vertices.lines().skip(1).take(count) {
+                for (ends, number) in extent.iter_mut().zip(vertex.split(' ')) {
+                    let at = number.parse().expect("a number");
+                    *ends = [engine::math::min(ends[0], at), engine::math::max(ends[1], at)];
+                }
+            }
+            (name, extent)
+        };
+        objects.map(extent).collect()
+    }
+
+    /// The generic tilt-rotor is the XV-15 at 0.8 of its size, and so is every part that its file does not have.
     #[test]
-    fn another_aircraft_has_a_model_of_its_own_size() {
+    fn another_aircraft_has_a_model_of_its_own() {
         let toml = tree("aircraft/generic.toml");
         let generic = aircraft::aircraft("generic.toml", &toml).expect("an aircraft");
         let (generic, xv15) = (flightgear_package::files(&generic), made());
-        for part in ["fuselage", "tailplane", "pods", "spinner.left"] {
-            let ratio = length_m(&generic, part) / length_m(&xv15, part);
-            assert!((ratio - 0.8).abs() < 0.01, "{part}: {ratio}");
+        let (small, large) = (parts(&generic), parts(&xv15));
+        assert!(small.len() == large.len() && small.len() > 70, "{} parts", small.len());
+        for ((name, small), (_, large)) in small.into_iter().zip(large) {
+            for (small, large) in small.into_iter().flatten().zip(large.into_iter().flatten()) {
+                assert!((small - 0.8 * large).abs() < 0.02, "{name}: {small} m, {large} m");
+            }
         }
+        let entry = text(&generic, "xv15-set.xml");
+        assert!(entry.contains("<splash-title>Generic tilt-rotor<"), "{entry}");
+        let livery = |files: &[File]| {
+            files
+                .iter()
+                .find(|file| file.path == "Models/livery.png")
+                .expect("a livery")
+                .bytes
+                .clone()
+        };
+        assert!(livery(&generic) != livery(&xv15), "its own name");
     }
 
     #[test]

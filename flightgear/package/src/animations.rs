@@ -16,14 +16,14 @@ use engine::units::DEG_PER_RAD;
 
 use crate::ac3d::number;
 use crate::mesh::{Point, dot, sub};
-use crate::shape::{SIDES, cockpit, gear, lights, nacelle, rotor, tail, wing};
+use crate::shape::{Likeness, SIDES, cockpit, gear, lights, nacelle, rotor, tail, wing};
 
 /// Blades are seen below this rotor speed, the blur above the second.
 const BLADES_RPM_MAX: f64 = 240.0;
 const BLUR_RPM_MIN: f64 = 110.0;
 /// Flaps, and how far the flaperons droop with them, deg. `TMX §3.3`
 const FLAPERON_DROOP_DEG: [[f64; 2]; 4] = [[0.0, 0.0], [20.0, 12.5], [40.0, 25.0], [75.0, 47.0]];
-/// How far inward a main leg folds, m: the pods' axes are inside the wheels'.
+/// How far inward a main leg of the XV-15 folds, m: the pods' axes are inside the wheels'.
 const FOLDS_INWARD_M: f64 = 0.15;
 
 struct Model {
@@ -44,7 +44,7 @@ pub fn xml(aircraft: &Aircraft) -> String {
     model.surfaces(aircraft);
     model.landing_gear(aircraft);
     model.lights(aircraft);
-    model.cockpit();
+    model.cockpit(Likeness::of(aircraft));
     model.dust(aircraft);
     model.text + "</PropertyList>\n"
 }
@@ -250,6 +250,7 @@ impl Model {
     }
 
     fn landing_gear(&mut self, aircraft: &Aircraft) {
+        let folds_inward_m = Likeness::of(aircraft).length(FOLDS_INWARD_M);
         for leg in gear::legs(aircraft) {
             let part = |what: &str| format!("gear.{}.{what}", leg.name);
             let unit = |what: &str| format!("tiltrotor/gear/unit[{}]/{what}", leg.unit);
@@ -262,7 +263,7 @@ impl Model {
                 [0.0, 1.0, 0.0],
                 leg.hinge_m,
             );
-            let inward = leg.axle_m[1].signum() * -FOLDS_INWARD_M;
+            let inward = leg.axle_m[1].signum() * -folds_inward_m;
             if leg.unit != 0 {
                 let rest = format!(
                     "  <property>{}</property>\n{}{}",
@@ -338,13 +339,13 @@ impl Model {
         self.show_if(&["landing.beam"], &format!("<and>{down}{dark}</and>"));
     }
 
-    fn cockpit(&mut self) {
+    fn cockpit(&mut self, like: Likeness) {
         let control = |what: &str| format!("tiltrotor/control/{what}");
         for (_, name, side) in SIDES {
             let seat = side * cockpit::SEAT_M;
             let [aft, up] = cockpit::STICK_M;
             let stick = [format!("stick.{name}")];
-            let at = [aft, seat, up];
+            let at = like.at([aft, seat, up]);
             self.turn(&stick, &control("stick-aft-norm"), &Law::Times(13.0), [0.0, 1.0, 0.0], at);
             self.turn(
                 &stick,
@@ -359,10 +360,11 @@ impl Model {
                 &control("collective-norm"),
                 &Law::Times(24.0),
                 [0.0, 1.0, 0.0],
-                [aft, seat - left, up],
+                like.at([aft, seat - left, up]),
             );
             for (foot, way) in [("left", 0.07), ("right", -0.07)] {
                 let pedal = [format!("pedal.{name}.{foot}")];
+                let way = like.length(way);
                 self.slide(&pedal, &control("pedal-right-norm"), way, [1.0, 0.0, 0.0]);
             }
         }
@@ -371,14 +373,14 @@ impl Model {
             "tiltrotor/gear/handle-down",
             &Law::TimesPlus(50.0, -25.0),
             [0.0, 1.0, 0.0],
-            cockpit::GEAR_HANDLE_M,
+            like.at(cockpit::GEAR_HANDLE_M),
         );
         self.turn(
             &["flap.lever"],
             "tiltrotor/flap-detent",
             &Law::TimesPlus(20.0, -30.0),
             [0.0, 1.0, 0.0],
-            cockpit::FLAP_LEVER_M,
+            like.at(cockpit::FLAP_LEVER_M),
         );
         self.show_if(&["warning.lamp"], "<property>tiltrotor/lamp/master-warning</property>");
     }

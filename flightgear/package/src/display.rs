@@ -3,14 +3,17 @@
 use std::fmt::Write as _;
 
 use engine::aircraft::Params as Aircraft;
-use engine::units::{DEG_PER_RAD, KNOT_MPS, RPM_PER_RADPS};
+use engine::units::{DEG_PER_RAD, KNOT_MPS, POUND_KG, RPM_PER_RADPS};
 
 use crate::ac3d::number;
 use crate::mesh::{Point, sub};
-use crate::shape::cockpit;
+use crate::shape::{Likeness, cockpit};
 
 /// The entry file, with places for numbers.
 const SET: &str = include_str!("xv15-set.xml");
+
+/// JP-4, pounds a US gallon.
+const FUEL_LB_PER_GAL: f64 = 6.5;
 
 /// A station as FlightGear's views have it: right, up, aft of the model's origin.
 fn view(aircraft: &Aircraft, station_m: Point) -> String {
@@ -24,12 +27,21 @@ fn view(aircraft: &Aircraft, station_m: Point) -> String {
 /// The entry file.
 pub fn set(aircraft: &Aircraft) -> String {
     let [aft, up] = cockpit::EYE_M;
-    let nose = aircraft.display.fuselage.section_m.first().map_or(aft, |section| section[0]);
-    let cabin = [5.75, 0.0, up + 0.05];
-    SET.replace("@PILOT@", &view(aircraft, [aft, cockpit::SEAT_M, up]))
-        .replace("@COPILOT@", &view(aircraft, [aft, -cockpit::SEAT_M, up]))
-        .replace("@CREW@", &view(aircraft, cabin))
-        .replace("@HOVER@", &view(aircraft, [nose - 0.15, 0.0, 1.1]))
+    let like = Likeness::of(aircraft);
+    let view = |drawn_m: Point| view(aircraft, like.at(drawn_m));
+    let fuel_gal = aircraft.weight_balance.fuel_kg_max / (POUND_KG * FUEL_LB_PER_GAL);
+    SET.replace("@PILOT@", &view([aft, cockpit::SEAT_M, up]))
+        .replace("@COPILOT@", &view([aft, -cockpit::SEAT_M, up]))
+        .replace("@CREW@", &view([5.75, 0.0, up + 0.05]))
+        .replace("@HOVER@", &view([2.70, 0.0, 1.1]))
+        .replace("@NAME@", &escaped(&aircraft.name))
+        .replace("@FUEL_LB_PER_GAL@", &number(FUEL_LB_PER_GAL))
+        .replace("@FUEL_GAL@", &number(fuel_gal))
+}
+
+/// A name as text of XML.
+fn escaped(name: &str) -> String {
+    name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// Numbers for the display: the conversion corridor's outline and the limits of its scales.

@@ -39,7 +39,7 @@ pub fn files(aircraft: &Aircraft) -> Vec<File> {
         file("Models/xv15.ac", model(aircraft)),
         file("Models/xv15.xml", animations::xml(aircraft)),
         file("Models/ghost.xml", animations::ghost(aircraft)),
-        file(format!("Models/{}", paint::LIVERY), paint::livery(&aircraft.display.fuselage)),
+        file(format!("Models/{}", paint::LIVERY), paint::livery(aircraft)),
         file(format!("Models/{}", paint::DISC), paint::disc()),
         file(format!("Models/{}", paint::HALO), paint::halo()),
         file(format!("Models/{}", paint::DUST), paint::dust()),
@@ -53,15 +53,14 @@ pub fn files(aircraft: &Aircraft) -> Vec<File> {
 /// helicopter.
 fn model(aircraft: &Aircraft) -> String {
     use shape::{cockpit, fuselage, gear, lights, nacelle, rotor, tail, wing};
-    let shape = &aircraft.display;
-    let mut parts = fuselage::parts(&shape.fuselage);
+    let mut parts = fuselage::parts(aircraft);
     // What can be seen through is drawn last.
     let glass = parts.remove(1);
     parts.extend(wing::parts(aircraft));
     parts.extend(tail::parts(aircraft));
     parts.extend(gear::parts(aircraft));
     parts.extend(nacelle::parts(aircraft));
-    parts.extend(cockpit::parts(&shape.fuselage));
+    parts.extend(cockpit::parts(aircraft));
     parts.extend(lights::parts(aircraft));
     parts.push(glass);
     parts.extend(rotor::parts(aircraft));

@@ -1,9 +1,9 @@
 //! Pictures: the fuselage's livery, blur disc, halo, dust, the dark screen.
 
-use engine::display::Fuselage;
+use engine::aircraft::Params as Aircraft;
 use engine::math::{exp, max, min, sqrt};
 
-use crate::shape::Smooth;
+use crate::shape::{Likeness, Smooth};
 
 /// Texture of the fuselage.
 pub const LIVERY: &str = "livery.png";
@@ -32,6 +32,7 @@ const LIVERY_PX: [u32; 2] = [2048, 512];
 /// Where the fuselage's sides are on the livery, and how they are painted.
 pub struct Livery {
     section: Smooth<4>,
+    like: Likeness,
     window_m: [f64; 4],
     /// What is painted: stations and waterlines of its ends.
     aft_m: [f64; 2],
@@ -39,14 +40,16 @@ pub struct Livery {
 }
 
 impl Livery {
-    /// Of a fuselage.
-    pub fn new(shape: &Fuselage) -> Self {
+    /// Of an aircraft.
+    pub fn new(aircraft: &Aircraft) -> Self {
+        let shape = &aircraft.display.fuselage;
         let section = Smooth::new(&shape.section_m);
         let [nose, end] = section.range();
         let lowest = shape.section_m.iter().fold(f64::MAX, |low, row| min(low, row[2]));
         let highest = shape.section_m.iter().fold(f64::MIN, |high, row| max(high, row[3]));
         Self {
             section,
+            like: Likeness::of(aircraft),
             window_m: shape.side_window_m,
             aft_m: [nose - 0.05, end + 0.05],
             up_m: [lowest - 0.05, highest + 0.05],
@@ -64,7 +67,8 @@ impl Livery {
     /// The colour of a side at a place; `seen` is the station as the letters run.
     fn colour(&self, aft: f64, up: f64, words: &[Word]) -> Colour {
         let [_, _, bottom, top] = self.section.at(aft);
-        let [nose, end] = self.section.range();
+        let ([nose, end], like) = (self.section.range(), self.like);
+        let m = |drawn: f64| like.length(drawn);
         let mut colour = WHITE;
         let part = (aft - nose) / (end - nose);
         // The belly's edge rises with the tail.
@@ -72,18 +76,18 @@ impl Livery {
         mix(&mut colour, BELLY, edge(belly - up));
         // A stripe that widens aft, and a lighter one below it.
         let middle = bottom + (0.50 + 0.06 * part) * (top - bottom);
-        let half = 0.035 + 0.10 * part;
-        if aft > nose + 0.35 {
+        let half = m(0.035 + 0.10 * part);
+        if aft > nose + m(0.35) {
             let off = up - middle;
             mix(&mut colour, BLUE, edge(half - off.abs()));
-            let second = off + half + 0.035 + 0.025;
-            mix(&mut colour, LIGHT_BLUE, edge(0.025 - second.abs()));
+            let second = off + half + m(0.035 + 0.025);
+            mix(&mut colour, LIGHT_BLUE, edge(m(0.025) - second.abs()));
         }
         // The tail's end.
-        mix(&mut colour, BLUE, edge(aft - (end - 1.35) - 0.9 * (up - 2.2)));
+        mix(&mut colour, BLUE, edge(aft - (end - m(1.35)) - 0.9 * (up - like.up(2.2))));
         // Against glare before the windscreen.
-        if aft < 4.35 && aft > nose + 0.12 {
-            mix(&mut colour, BLACK, edge(up - (top - 0.13 - 0.05 * (aft - nose))));
+        if aft < like.aft(4.35) && aft > nose + m(0.12) {
+            mix(&mut colour, BLACK, edge(up - (top - m(0.13) - 0.05 * (aft - nose))));
         }
         self.lines(&mut colour, aft, up);
         for word in words {
@@ -96,17 +100,21 @@ impl Livery {
     /// Doors, joints and the frames of windows.
     fn lines(&self, colour: &mut Colour, aft: f64, up: f64) {
         let [from, to, low, high] = self.window_m;
-        let middle = 0.5 * (from + to);
-        for window in [[from, middle - 0.05], [middle + 0.05, to]] {
-            let off = outside(aft, up, [window[0], window[1], low, high], 0.09);
-            mix(colour, [0.30, 0.32, 0.35, 1.0], edge(0.028 - off));
+        let (middle, like) = (0.5 * (from + to), self.like);
+        let m = |drawn: f64| like.length(drawn);
+        for window in [[from, middle - m(0.05)], [middle + m(0.05), to]] {
+            let off = outside(aft, up, [window[0], window[1], low, high], m(0.09));
+            mix(colour, [0.30, 0.32, 0.35, 1.0], edge(m(0.028) - off));
         }
-        let door = outside(aft, up, [6.42, 7.18, 0.86, 2.16], 0.10);
-        mix(colour, LINE, 0.8 * edge(0.009 - door.abs()));
-        let handle = outside(aft, up, [6.50, 6.62, 1.52, 1.55], 0.01);
+        let frame = |[from, to, low, high]: [f64; 4]| {
+            [like.aft(from), like.aft(to), like.up(low), like.up(high)]
+        };
+        let door = outside(aft, up, frame([6.42, 7.18, 0.86, 2.16]), m(0.10));
+        mix(colour, LINE, 0.8 * edge(m(0.009) - door.abs()));
+        let handle = outside(aft, up, frame([6.50, 6.62, 1.52, 1.55]), m(0.01));
         mix(colour, [0.25, 0.26, 0.28, 1.0], edge(-handle));
         for joint in [3.72, 5.08, 8.55, 9.70, 10.9, 12.15, 13.4, 14.1] {
-            mix(colour, LINE, 0.45 * edge(0.005 - (aft - joint).abs()));
+            mix(colour, LINE, 0.45 * edge(m(0.005) - (aft - like.aft(joint)).abs()));
         }
     }
 }
@@ -129,66 +137,20 @@ fn mix(colour: &mut Colour, with: Colour, part: f64) {
     *colour = std::array::from_fn(|i| colour[i] + (with[i] - colour[i]) * part);
 }
 
-/// Letters drawn with a pen on a grid four wide and six high.
-const LETTERS: &[(char, &[&[[f64; 2]]])] = &[
-    ('X', &[&[[0.0, 0.0], [4.0, 6.0]], &[[0.0, 6.0], [4.0, 0.0]]]),
-    ('V', &[&[[0.0, 6.0], [2.0, 0.0], [4.0, 6.0]]]),
-    ('-', &[&[[0.6, 3.0], [3.4, 3.0]]]),
-    ('1', &[&[[0.8, 4.8], [2.2, 6.0], [2.2, 0.0]]]),
-    (
-        '5',
-        &[&[
-            [3.8, 6.0],
-            [0.6, 6.0],
-            [0.4, 3.3],
-            [1.4, 3.8],
-            [2.6, 3.8],
-            [3.6, 3.2],
-            [4.0, 2.1],
-            [3.6, 0.8],
-            [2.6, 0.0],
-            [1.2, 0.0],
-            [0.2, 0.7],
-        ]],
-    ),
-    ('T', &[&[[0.0, 6.0], [4.0, 6.0]], &[[2.0, 6.0], [2.0, 0.0]]]),
-    ('I', &[&[[2.0, 0.0], [2.0, 6.0]]]),
-    ('L', &[&[[0.3, 6.0], [0.3, 0.0], [3.8, 0.0]]]),
-    (
-        'R',
-        &[
-            &[
-                [0.2, 0.0],
-                [0.2, 6.0],
-                [2.7, 6.0],
-                [3.6, 5.5],
-                [3.9, 4.5],
-                [3.5, 3.5],
-                [2.6, 3.0],
-                [0.2, 3.0],
-            ],
-            &[[2.2, 3.0], [4.0, 0.0]],
-        ],
-    ),
-    (
-        'O',
-        &[&[
-            [1.3, 0.0],
-            [2.7, 0.0],
-            [3.6, 0.7],
-            [4.0, 2.0],
-            [4.0, 4.0],
-            [3.6, 5.3],
-            [2.7, 6.0],
-            [1.3, 6.0],
-            [0.4, 5.3],
-            [0.0, 4.0],
-            [0.0, 2.0],
-            [0.4, 0.7],
-            [1.3, 0.0],
-        ]],
-    ),
-];
+/// Letters drawn with a pen on a grid four wide and six high: a letter a line, strokes between bars.
+const LETTERS: &str = include_str!("letters.txt");
+
+/// The strokes of a letter; of one that is not there, none.
+fn strokes(letter: char) -> Vec<Vec<[f64; 2]>> {
+    let mut lines = LETTERS.lines();
+    let Some(line) = lines.find(|line| line.starts_with(letter)) else { return Vec::new() };
+    let point = |text: &str| {
+        let (x, y) = text.split_once(',')?;
+        Some([x.parse().ok()?, y.parse().ok()?])
+    };
+    let stroke = |text: &str| text.split_whitespace().filter_map(point).collect();
+    line[letter.len_utf8()..].split('|').map(stroke).collect()
+}
 
 /// A word on a side of the fuselage.
 struct Word {
@@ -206,9 +168,7 @@ impl Word {
         let forward = if right_side { -1.0 } else { 1.0 };
         let mut lines = Vec::new();
         for (i, letter) in text.chars().enumerate() {
-            let strokes =
-                LETTERS.iter().find(|(known, _)| *known == letter).map_or(&[][..], |(_, s)| s);
-            for stroke in strokes {
+            for stroke in strokes(letter) {
                 let at = |[x, y]: [f64; 2]| {
                     // Leaning with the flight.
                     let along = step * i as f64 + x + 0.22 * (y - 3.0) * -forward - 0.5 * width;
@@ -261,14 +221,26 @@ fn png([wide, high]: [u32; 2], bytes: &[u8], opaque: bool) -> Vec<u8> {
     file
 }
 
+/// What is painted on an aircraft: of a maker and a type the type, which has a number; without one the name.
+fn painted_name(name: &str) -> String {
+    let kind: Vec<_> =
+        name.split(' ').filter(|word| word.contains(|c: char| c.is_ascii_digit())).collect();
+    if kind.is_empty() { name.to_uppercase() } else { kind.join(" ").to_uppercase() }
+}
+
 /// The fuselage's sides.
-pub fn livery(shape: &Fuselage) -> Vec<u8> {
-    let livery = Livery::new(shape);
+pub fn livery(aircraft: &Aircraft) -> Vec<u8> {
+    let (livery, like) = (Livery::new(aircraft), Likeness::of(aircraft));
+    let name = painted_name(&aircraft.name);
+    // As tall as the XV-15's, or as long.
+    let longest = 8.0;
+    let tall = 0.40 * min(1.0, longest / name.chars().count() as f64);
     let words = [false, true].map(|right_side| {
-        [
-            Word::new("XV-15", [9.35, 2.05], 0.40, BLUE, right_side),
-            Word::new("TILTROTOR", [10.6, 1.735], 0.105, WHITE, right_side),
-        ]
+        let word = |text: &str, [aft, up]: [f64; 2], tall: f64, colour| {
+            let middle = [like.aft(aft), like.up(up)];
+            Word::new(text, middle, like.length(tall), colour, right_side)
+        };
+        [word(&name, [9.35, 2.05], tall, BLUE), word("TILTROTOR", [10.6, 1.735], 0.105, WHITE)]
     });
     let [first, last] = livery.aft_m;
     let [low, high] = livery.up_m;
@@ -345,10 +317,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_letter_of_the_livery_can_be_drawn() {
-        for letter in "XV-15TILTROTOR".chars() {
-            assert!(LETTERS.iter().any(|(known, _)| *known == letter), "{letter}");
+    fn every_letter_can_be_drawn_and_none_leaves_its_place() {
+        for letter in ('A'..='Z').chain('0'..='9').chain(['-']) {
+            let drawn = strokes(letter);
+            assert!(!drawn.is_empty() && drawn.iter().all(|stroke| stroke.len() > 1), "{letter}");
+            for [x, y] in drawn.into_iter().flatten() {
+                assert!((0.0..=4.0).contains(&x) && (-0.5..=6.0).contains(&y), "{letter}: {x} {y}");
+            }
         }
+        assert!(strokes(' ').is_empty() && strokes('é').is_empty());
+    }
+
+    #[test]
+    fn a_type_is_painted_without_its_maker() {
+        assert_eq!(painted_name("Bell XV-15"), "XV-15");
+        assert_eq!(painted_name("Generic tilt-rotor"), "GENERIC TILT-ROTOR");
     }
 
     #[test]

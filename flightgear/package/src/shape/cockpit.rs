@@ -2,11 +2,11 @@
 //!
 //! # Assumptions
 //! No drawing of the cockpit is at hand: two seats side by side, the first pilot's on the right.
-//! Everything here is for recognition.
+//! Everything here is for recognition, in stations of the XV-15.
 
-use engine::display::Fuselage;
+use engine::aircraft::Params as Aircraft;
 
-use super::{SIDES, Smooth, fuselage, steps};
+use super::{Likeness, SIDES, Smooth, fuselage, steps};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Half, Mesh, Point, ring};
 use crate::paint;
@@ -42,9 +42,15 @@ fn prism(mesh: &mut Mesh, material: usize, section: &[[f64; 2]], [left, right]: 
 }
 
 /// All of it.
-pub fn parts(shape: &Fuselage) -> Vec<Part> {
+pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
+    let like = Likeness::of(aircraft);
+    let lining = Part::new("lining", lining(aircraft)).smooth(50.0);
+    std::iter::once(lining).chain(fittings().into_iter().map(|part| like.part(part))).collect()
+}
+
+/// What is inside the lining.
+fn fittings() -> Vec<Part> {
     let mut parts = vec![
-        Part::new("lining", lining(shape)).smooth(50.0),
         Part::new("panel", panel()).smooth(20.0),
         Part::new("seats", seats()).smooth(40.0),
         Part::new("gear.handle", gear_handle()),
@@ -65,26 +71,28 @@ pub fn parts(shape: &Fuselage) -> Vec<Part> {
 }
 
 /// The skin's inside with its windows, floor and bulkhead.
-fn lining(shape: &Fuselage) -> Mesh {
-    let rings = fuselage::rings(shape, &steps(3.45, REAR_M, 24), 0.035);
+fn lining(aircraft: &Aircraft) -> Mesh {
+    let (shape, like) = (&aircraft.display.fuselage, Likeness::of(aircraft));
+    let [front, rear, floor] = [like.aft(3.45), like.aft(REAR_M), like.up(FLOOR_M)];
+    let rings = fuselage::rings(shape, &steps(front, rear, 24), like.length(0.035));
     let mut skin = Mesh::default();
     skin.skin(material::INTERIOR, &rings);
-    for window in fuselage::windows(shape) {
+    for window in fuselage::windows(shape, like) {
         skin.cut(&window);
     }
-    skin.cut(&[Half::below(2, FLOOR_M)]);
-    skin.paint(&[Half::below(2, 1.55)], material::FLOOR);
+    skin.cut(&[Half::below(2, floor)]);
+    skin.paint(&[Half::below(2, like.up(1.55))], material::FLOOR);
     let mut mesh = skin.inside_out();
     let smooth = Smooth::new(&shape.section_m);
-    let lines: Vec<Vec<Point>> = steps(3.45, REAR_M, 10)
+    let lines: Vec<Vec<Point>> = steps(front, rear, 10)
         .into_iter()
         .map(|aft| {
-            let half = smooth.at(aft)[1] - 0.03;
-            vec![[aft, half, FLOOR_M], [aft, -half, FLOOR_M]]
+            let half = smooth.at(aft)[1] - like.length(0.03);
+            vec![[aft, half, floor], [aft, -half, floor]]
         })
         .collect();
     mesh.sheet(material::FLOOR, &lines);
-    if let Some(last) = fuselage::rings(shape, &[REAR_M], 0.035).pop() {
+    if let Some(last) = fuselage::rings(shape, &[rear], like.length(0.035)).pop() {
         mesh.polygons.push(two_sided_face(material::INTERIOR, &last));
     }
     mesh

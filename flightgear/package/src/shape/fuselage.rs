@@ -1,14 +1,15 @@
 //! Fuselage: skin, windows, the wing's fairing, pods of the main gear.
 
-use engine::display::{Fuselage, GearPods};
+use engine::aircraft::Params as Aircraft;
+use engine::display::Fuselage;
 use engine::math::{pow_positive, sign};
 
-use super::{Smooth, bays, steps};
+use super::{Likeness, Smooth, bays, steps};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Half, Mesh, Point, Polygon, Region, outline, ring};
 use crate::paint;
 
-/// Half the width of the windscreen's middle post, m.
+/// Half the width of the XV-15's middle post of the windscreen, m.
 const POST_M: f64 = 0.03;
 /// Points around.
 const AROUND: u16 = 40;
@@ -30,16 +31,18 @@ pub fn rings(shape: &Fuselage, stations_m: &[f64], inset_m: f64) -> Vec<Vec<Poin
 }
 
 /// Where the skin is given: closely at the nose.
-fn stations_m(shape: &Fuselage) -> Vec<f64> {
+fn stations_m(shape: &Fuselage, like: Likeness) -> Vec<f64> {
     let [nose, end] = Smooth::new(&shape.section_m).range();
-    let mut stations = vec![nose, nose + 0.03, nose + 0.08];
-    stations.extend(steps(nose + 0.15, 5.5, 22));
-    stations.extend(steps(5.5, end, 24).into_iter().skip(1));
+    let cabin = like.aft(5.5);
+    let mut stations = vec![nose, nose + like.length(0.03), nose + like.length(0.08)];
+    stations.extend(steps(nose + like.length(0.15), cabin, 22));
+    stations.extend(steps(cabin, end, 24).into_iter().skip(1));
     stations
 }
 
 /// The windows: each a region of the skin.
-pub fn windows(shape: &Fuselage) -> Vec<Region> {
+pub fn windows(shape: &Fuselage, like: Likeness) -> Vec<Region> {
+    let (m, post_half) = (|drawn: f64| like.length(drawn), like.length(POST_M));
     let [front, back, sill, head] = shape.windscreen_m;
     let [from, to, bottom, top] = shape.side_window_m;
     let mut windows = Vec::new();
@@ -54,47 +57,36 @@ pub fn windows(shape: &Fuselage) -> Vec<Region> {
         };
         // The windscreen leans back to its head, and ends at a post that leans with it.
         let lean = 0.62;
-        let post = |up: f64| front + 0.62 + lean * (up - sill);
+        let post = |up: f64| front + m(0.62) + lean * (up - sill);
         windows.push(pane(
-            &[[front - 0.2, sill], [post(sill), sill], [post(head), head], [front - 0.2, head]],
-            POST_M,
+            &[
+                [front - m(0.2), sill],
+                [post(sill), sill],
+                [post(head), head],
+                [front - m(0.2), head],
+            ],
+            post_half,
         ));
         // The quarter window behind the post.
         windows.push(pane(
             &[
-                [post(sill) + 0.10, sill],
-                [back + 0.02, sill - 0.12],
-                [back + 0.02, head - 0.08],
-                [post(head - 0.08) + 0.10, head - 0.08],
+                [post(sill) + m(0.10), sill],
+                [back + m(0.02), sill - m(0.12)],
+                [back + m(0.02), head - m(0.08)],
+                [post(head - m(0.08)) + m(0.10), head - m(0.08)],
             ],
-            POST_M,
+            post_half,
         ));
         // Overhead, for looking into a turn.
-        let mut overhead = outline(
-            [0, 1],
-            &[
-                [back - 0.02, side * 0.12],
-                [back + 0.48, side * 0.12],
-                [back + 0.48, side * 0.56],
-                [back - 0.02, side * 0.56],
-            ],
-        );
-        if side < 0.0 {
-            overhead = outline(
-                [0, 1],
-                &[
-                    [back - 0.02, -0.56],
-                    [back + 0.48, -0.56],
-                    [back + 0.48, -0.12],
-                    [back - 0.02, -0.12],
-                ],
-            );
-        }
+        let [before, behind] = [back - m(0.02), back + m(0.48)];
+        let [left, right] = if side > 0.0 { [0.12, 0.56] } else { [-0.56, -0.12] }.map(m);
+        let corners = [[before, left], [behind, left], [behind, right], [before, right]];
+        let mut overhead = outline([0, 1], &corners);
         overhead.push(Half::above(2, head));
         windows.push(overhead);
         let middle = 0.5 * (from + to);
-        for [from, to] in [[from, middle - 0.05], [middle + 0.05, to]] {
-            let corner = 0.09;
+        for [from, to] in [[from, middle - m(0.05)], [middle + m(0.05), to]] {
+            let corner = m(0.09);
             windows.push(pane(
                 &[
                     [from + corner, bottom],
@@ -106,49 +98,39 @@ pub fn windows(shape: &Fuselage) -> Vec<Region> {
                     [from, top - corner],
                     [from, bottom + corner],
                 ],
-                POST_M,
+                post_half,
             ));
         }
     }
     windows
 }
 
-/// The bay of the nose gear in the skin.
-pub fn nose_bay() -> Region {
-    vec![
-        Half::above(0, bays::NOSE_BAY_M[0]),
-        Half::below(0, bays::NOSE_BAY_M[1]),
-        Half::above(1, -bays::NOSE_BAY_HALF_M),
-        Half::below(1, bays::NOSE_BAY_HALF_M),
-        Half::below(2, 0.80),
-    ]
-}
-
 /// Fuselage with windows, and the doors of the nose gear that are cut from it.
-pub fn parts(shape: &Fuselage) -> Vec<Part> {
-    let rings = rings(shape, &stations_m(shape), 0.0);
+pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
+    let (shape, like) = (&aircraft.display.fuselage, Likeness::of(aircraft));
+    let rings = rings(shape, &stations_m(shape, like), 0.0);
     let mut skin = Mesh::default();
     skin.body(material::WHITE, &rings);
     let mut glass = Mesh::default();
-    for window in windows(shape) {
+    for window in windows(shape, like) {
         glass.join(skin.cut(&window));
     }
     glass.polygons.iter_mut().for_each(|pane| pane.material = material::GLASS);
-    let mut doors = skin.cut(&nose_bay());
+    let mut doors = skin.cut(&bays::nose_bay(like).below(like.up(0.80)));
     let left = doors.cut(&[Half::below(1, 0.0)]);
-    let paint = |mesh| painted(mesh, shape);
+    let livery = paint::Livery::new(aircraft);
+    let paint = |mesh| painted(mesh, &livery);
     vec![
         Part::new("fuselage", paint(skin)).with_texture(paint::LIVERY).smooth(50.0),
         Part::new("glass", glass).smooth(50.0),
         Part::new("door.nose.left", paint(left).two_sided()).with_texture(paint::LIVERY),
         Part::new("door.nose.right", paint(doors).two_sided()).with_texture(paint::LIVERY),
-        Part::new("fairing", fairing(shape)).smooth(60.0),
+        Part::new("fairing", fairing(shape, like)).smooth(60.0),
     ]
 }
 
 /// Puts the skin on the livery: each side on its own half, by what side a face is on.
-fn painted(mut mesh: Mesh, shape: &Fuselage) -> Mesh {
-    let livery = paint::Livery::new(shape);
+fn painted(mut mesh: Mesh, livery: &paint::Livery) -> Mesh {
     for Polygon { corners, .. } in &mut mesh.polygons {
         let right: f64 = corners.iter().map(|corner| corner.at_m[1]).sum();
         for corner in corners {
@@ -159,23 +141,27 @@ fn painted(mut mesh: Mesh, shape: &Fuselage) -> Mesh {
 }
 
 /// Between the roof and the wing's upper side.
-fn fairing(shape: &Fuselage) -> Mesh {
-    let roof_m = Smooth::new(&shape.section_m).at(7.5)[3];
-    let rows = Smooth::new(&[
-        [6.35, 0.05, roof_m - 0.02],
-        [6.75, 0.38, roof_m + 0.09],
-        [7.20, 0.55, roof_m + 0.185],
-        [7.80, 0.58, roof_m + 0.19],
-        [8.60, 0.50, roof_m + 0.10],
-        [9.40, 0.30, roof_m + 0.04],
-        [10.0, 0.05, roof_m - 0.02],
-    ]);
+fn fairing(shape: &Fuselage, like: Likeness) -> Mesh {
+    let roof_m = Smooth::new(&shape.section_m).at(like.aft(7.5))[3];
+    let row = |[aft, half, above]: [f64; 3]| {
+        [like.aft(aft), like.length(half), roof_m + like.length(above)]
+    };
+    let rows = [
+        [6.35, 0.05, -0.02],
+        [6.75, 0.38, 0.09],
+        [7.20, 0.55, 0.185],
+        [7.80, 0.58, 0.19],
+        [8.60, 0.50, 0.10],
+        [9.40, 0.30, 0.04],
+        [10.0, 0.05, -0.02],
+    ];
+    let rows = Smooth::new(&rows.map(row));
     let [from, to] = rows.range();
     let rings: Vec<_> = steps(from, to, 24)
         .into_iter()
         .map(|aft| {
             let [_, half, top] = rows.at(aft);
-            let bottom = roof_m - 0.22;
+            let bottom = roof_m - like.length(0.22);
             ring(24, |s, c| {
                 let round = |v: f64| sign(v) * pow_positive(v.abs(), 0.8);
                 [aft, half * round(s), 0.5 * (bottom + top) + 0.5 * (top - bottom) * round(c)]
@@ -188,7 +174,8 @@ fn fairing(shape: &Fuselage) -> Mesh {
 }
 
 /// The pod of the right main gear, with its bay cut out, and the bay's doors.
-pub fn pod(shape: &GearPods) -> (Mesh, Mesh) {
+pub fn pod(aircraft: &Aircraft) -> (Mesh, Mesh) {
+    let (shape, like) = (&aircraft.display.gear_pods, Likeness::of(aircraft));
     let smooth = Smooth::new(&shape.section_m);
     let [from, to] = smooth.range();
     let rings: Vec<_> = steps(from, to, 30)
@@ -200,10 +187,9 @@ pub fn pod(shape: &GearPods) -> (Mesh, Mesh) {
         .collect();
     let mut pod = Mesh::default();
     pod.body(material::WHITE, &rings);
-    let doors = pod.cut(&bays::main_bay(shape));
-    pod.paint(
-        &outline([0, 2], &[[6.0, 0.9], [11.0, 0.9], [11.0, 1.0], [6.0, 1.0]]),
-        material::BLUE,
-    );
+    let below = shape.waterline_m - like.length(0.1);
+    let doors = pod.cut(&bays::main_bay(aircraft).below(below));
+    // A stripe.
+    pod.paint(&[Half::above(2, like.up(0.9)), Half::below(2, like.up(1.0))], material::BLUE);
     (pod, doors)
 }

@@ -4,17 +4,17 @@
 //! How it folds is not in any source at hand: the nose gear aft, the main gear forward into the pods.
 
 use engine::aircraft::Params as Aircraft;
-use engine::display::{GearPods, Wheels};
+use engine::display::Wheels;
 use engine::landing_gear::Strut;
 
-use super::bays::{MAIN_BAY_HALF_M, MAIN_BAY_M, NOSE_BAY_HALF_M, NOSE_BAY_M, main_bay_middle_m};
-use super::fuselage;
+use super::bays::{Bay, main_bay, nose_bay};
+use super::{Likeness, Smooth, fuselage};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Half, Mesh, Point, ring};
 
-/// Waterline of the nose leg's hinge, m.
+/// Waterline of the nose leg's hinge in the XV-15, m.
 const NOSE_HINGE_M: f64 = 0.83;
-/// Waterline of a main leg's hinge, m.
+/// Waterline of a main leg's hinge in the XV-15, m.
 const MAIN_HINGE_M: f64 = 0.93;
 
 /// One of the legs.
@@ -41,9 +41,10 @@ fn axle_m(strut: &Strut, wheels: &Wheels, side: f64) -> Point {
 /// Nose, left and right.
 pub fn legs(aircraft: &Aircraft) -> [Leg; 3] {
     let (gear, shape) = (&aircraft.landing_gear, &aircraft.display);
+    let like = Likeness::of(aircraft);
     let leg = |name, unit, strut, wheels: &Wheels, side, hinge_up, folds| {
         let axle = axle_m(strut, wheels, side);
-        let hinge = [axle[0], axle[1], hinge_up];
+        let hinge = [axle[0], axle[1], like.up(hinge_up)];
         Leg { name, unit, axle_m: axle, hinge_m: hinge, folds, radius_m: wheels.radius_m }
     };
     [
@@ -55,20 +56,22 @@ pub fn legs(aircraft: &Aircraft) -> [Leg; 3] {
 
 /// Where a door turns: a point, and the direction is the aircraft's long axis.
 pub fn door_hinge_m(aircraft: &Aircraft, door: &str) -> Point {
-    let pods = &aircraft.display.gear_pods;
-    let (middle, half) = (main_bay_middle_m(pods), MAIN_BAY_HALF_M);
+    let (pods, like) = (&aircraft.display.gear_pods, Likeness::of(aircraft));
+    let ([nose_left, nose_right], nose_up) = (nose_bay(like).right_m, like.up(0.60));
+    let Bay { aft_m, right_m: [inner, outer] } = main_bay(aircraft);
     let low = |out: f64| {
-        let [_, radius] = super::Smooth::new(&pods.section_m).at(7.9);
+        let [_, radius] = Smooth::new(&pods.section_m).at(0.5 * (aft_m[0] + aft_m[1]));
         let across = out - pods.buttline_m;
-        pods.waterline_m - engine::math::sqrt(radius * radius - across * across)
+        pods.waterline_m
+            - engine::math::sqrt(engine::math::max(0.0, radius * radius - across * across))
     };
     match door {
-        "nose.left" => [0.0, -NOSE_BAY_HALF_M, 0.60],
-        "nose.right" => [0.0, NOSE_BAY_HALF_M, 0.60],
-        "left.inner" => [0.0, half - middle, low(middle - half)],
-        "left.outer" => [0.0, -half - middle, low(middle + half)],
-        "right.inner" => [0.0, middle - half, low(middle - half)],
-        _ => [0.0, middle + half, low(middle + half)],
+        "nose.left" => [0.0, nose_left, nose_up],
+        "nose.right" => [0.0, nose_right, nose_up],
+        "left.inner" => [0.0, -inner, low(inner)],
+        "left.outer" => [0.0, -outer, low(outer)],
+        "right.inner" => [0.0, inner, low(inner)],
+        _ => [0.0, outer, low(outer)],
     }
 }
 
@@ -78,13 +81,13 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     let mut parts = Vec::new();
     for leg in legs(aircraft) {
         let wheels = if leg.unit == 0 { &shape.nose_wheels } else { &shape.main_wheels };
-        let (fixed, sliding, turning) = strut(&leg, wheels);
+        let (fixed, sliding, turning) = strut(&leg, wheels, Likeness::of(aircraft));
         parts.push(Part::new(format!("gear.{}.leg", leg.name), fixed).smooth(50.0));
         parts.push(Part::new(format!("gear.{}.fork", leg.name), sliding).smooth(50.0));
         parts.push(Part::new(format!("gear.{}.wheels", leg.name), turning).smooth(40.0));
     }
-    let (pod, mut inner) = fuselage::pod(&shape.gear_pods);
-    let outer = inner.cut(&[Half::above(1, main_bay_middle_m(&shape.gear_pods))]);
+    let (pod, mut inner) = fuselage::pod(aircraft);
+    let outer = inner.cut(&[Half::above(1, main_bay(aircraft).middle_m())]);
     let mut pods = pod.mirrored();
     pods.join(pod);
     parts.push(Part::new("pods", pods).smooth(50.0));
@@ -93,12 +96,13 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
         parts.push(Part::new(format!("door.left.{name}"), mesh.mirrored()).smooth(50.0));
         parts.push(Part::new(format!("door.right.{name}"), mesh).smooth(50.0));
     }
-    parts.push(Part::new("bays", bays(&shape.gear_pods)));
+    parts.push(Part::new("bays", bays(aircraft)));
     parts
 }
 
 /// The leg's upper part, what slides in it, and the wheels.
-fn strut(leg: &Leg, wheels: &Wheels) -> (Mesh, Mesh, Mesh) {
+fn strut(leg: &Leg, wheels: &Wheels, like: Likeness) -> (Mesh, Mesh, Mesh) {
+    let m = |drawn: f64| like.length(drawn);
     let ([aft, right, axle], top) = (leg.axle_m, leg.hinge_m[2]);
     let thick = wheels.leg_radius_m;
     let middle = axle + 0.45 * (top - axle);
@@ -106,18 +110,19 @@ fn strut(leg: &Leg, wheels: &Wheels) -> (Mesh, Mesh, Mesh) {
     fixed.bar(material::WHITE, [aft, right, middle], [aft, right, top], thick);
     fixed.bar(
         material::METAL,
-        [aft, right, middle + 0.02],
-        [aft + 0.30 * leg.folds, right, top],
+        [aft, right, middle + m(0.02)],
+        [aft + m(0.30) * leg.folds, right, top],
         0.4 * thick,
     );
     let half = 0.5 * wheels.spacing_m;
     let mut sliding = Mesh::default();
-    sliding.bar(material::METAL, [aft, right, axle], [aft, right, middle + 0.15], 0.66 * thick);
+    let inside = [aft, right, middle + m(0.15)];
+    sliding.bar(material::METAL, [aft, right, axle], inside, 0.66 * thick);
     sliding.bar(material::METAL, [aft, right - half, axle], [aft, right + half, axle], 0.5 * thick);
     // The scissors behind the leg.
-    let behind = aft - 0.13 * leg.folds;
+    let behind = aft - m(0.13) * leg.folds;
     let knee = 0.5 * (axle + middle);
-    sliding.bar(material::GREY, [aft, right, axle + 0.05], [behind, right, knee], 0.25 * thick);
+    sliding.bar(material::GREY, [aft, right, axle + m(0.05)], [behind, right, knee], 0.25 * thick);
     sliding.bar(material::GREY, [behind, right, knee], [aft, right, middle], 0.25 * thick);
     let mut turning = Mesh::default();
     for offset in [-half, half] {
@@ -162,21 +167,19 @@ fn wheel([aft, right, up]: Point, wheels: &Wheels) -> Mesh {
 }
 
 /// Boxes open below, dark inside.
-fn bays(pods: &GearPods) -> Mesh {
-    let open_box = |[front, back]: [f64; 2], [left, right]: [f64; 2], [low, high]: [f64; 2]| {
+fn bays(aircraft: &Aircraft) -> Mesh {
+    let like = Likeness::of(aircraft);
+    let open_box = |bay: Bay, [low, high]: [f64; 2]| {
+        let ([front, back], [left, right]) = (bay.aft_m, bay.right_m);
         let mut mesh = Mesh::default();
         mesh.cuboid(material::DARK, [front, left, low], [back, right, high]);
         // Without its floor.
         mesh.polygons.retain(|face| face.corners.iter().any(|corner| corner.at_m[2] > low + 1e-6));
         mesh.inside_out()
     };
-    let mut bays = open_box(NOSE_BAY_M, [-NOSE_BAY_HALF_M, NOSE_BAY_HALF_M], [0.66, 1.02]);
-    let middle = main_bay_middle_m(pods);
-    let main = open_box(
-        MAIN_BAY_M,
-        [middle - MAIN_BAY_HALF_M, middle + MAIN_BAY_HALF_M],
-        [pods.waterline_m - 0.32, pods.waterline_m + 0.29],
-    );
+    let mut bays = open_box(nose_bay(like), [0.66, 1.02].map(|up| like.up(up)));
+    let waterline_m = aircraft.display.gear_pods.waterline_m;
+    let main = open_box(main_bay(aircraft), [-0.32, 0.29].map(|up| waterline_m + like.length(up)));
     bays.join(main.mirrored());
     bays.join(main);
     bays

@@ -2,7 +2,7 @@
 
 use engine::aircraft::Params as Aircraft;
 
-use super::nacelle;
+use super::{Likeness, nacelle};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Mesh, Point, add, ring, sub};
 use crate::paint;
@@ -19,31 +19,35 @@ pub struct Light {
 
 /// All but the landing light. Those on the nacelles tilt with them.
 pub fn lights(aircraft: &Aircraft) -> Vec<Light> {
-    let light = |name, at_m, material, radius_m| Light { name, at_m, material, radius_m };
+    let like = Likeness::of(aircraft);
+    let light = |name, at_m, material, radius_m| Light {
+        name,
+        at_m,
+        material,
+        radius_m: like.length(radius_m),
+    };
     let fins = &aircraft.display.vertical_stabilizers;
     let tip = fins.section_m.last().map_or([0.0; 3], |row| *row);
-    let tip_m = |side: f64| [tip[2] + 0.3 * tip[1], side * fins.buttline_m, tip[0] + 0.02];
-    let on_nacelle = |side: f64| {
-        let pivot = nacelle::pivot_m(aircraft, side);
-        add(pivot, [0.0, side * 0.49, -0.1])
-    };
-    let end = aircraft.display.fuselage.section_m.last().map_or(15.3, |row| row[0]);
+    let tip_m =
+        |side: f64| [tip[2] + 0.3 * tip[1], side * fins.buttline_m, tip[0] + like.length(0.02)];
+    let on_nacelle =
+        |side: f64| like.from(nacelle::pivot_m(aircraft, side), [0.0, side * 0.49, -0.1]);
     vec![
         light("nav.left", on_nacelle(-1.0), material::LIGHT_RED, 0.05),
         light("nav.right", on_nacelle(1.0), material::LIGHT_GREEN, 0.05),
-        light("nav.tail", [end + 0.01, 0.0, 2.42], material::LIGHT_WHITE, 0.045),
-        light("beacon", [9.3, 0.0, 2.53], material::LIGHT_RED, 0.06),
+        light("nav.tail", like.at([15.35, 0.0, 2.42]), material::LIGHT_WHITE, 0.045),
+        light("beacon", like.at([9.3, 0.0, 2.53]), material::LIGHT_RED, 0.06),
         light("strobe.left", tip_m(-1.0), material::LIGHT_WHITE, 0.04),
         light("strobe.right", tip_m(1.0), material::LIGHT_WHITE, 0.04),
     ]
 }
 
-/// The landing light under the nose.
-pub const LANDING_M: Point = [4.75, 0.0, 0.56];
+/// The landing light under the nose, in stations of the XV-15.
+const LANDING_M: Point = [4.75, 0.0, 0.56];
 
 /// Lamps, halos, and the landing light's beam.
 pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
-    let cg = aircraft.weight_balance.cg_m;
+    let (cg, like) = (aircraft.weight_balance.cg_m, Likeness::of(aircraft));
     let mut parts = Vec::new();
     for light in lights(aircraft) {
         let mut lamp = Mesh::default();
@@ -69,8 +73,8 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     let lamp = ring(16, |s, c| [aft - 0.05 + 0.06 * c, right + 0.09 * s, up - 0.02 + 0.05 * c]);
     let mut mesh = Mesh::default();
     mesh.face(material::LIGHT_WHITE, &lamp);
-    parts.push(Part::new("landing.lamp", mesh.two_sided()));
-    parts.push(beam());
+    let lamp = Part::new("landing.lamp", mesh.two_sided());
+    parts.extend([lamp, beam()].map(|part| like.part(part)));
     parts
 }
 

@@ -1,7 +1,8 @@
 //! The aircraft's shape, from the aircraft file: parts by name, in stations of the drawing.
 //!
 //! Pivots, hubs, rotors, spans, chords and wheels are those that the aircraft is given; what the file
-//! does not have (hinges, doors, the cockpit) is for recognition.
+//! does not have (hinges, doors, the cockpit) is for recognition: drawn for the XV-15, and of another
+//! aircraft in the same place of its own fuselage ([`Likeness`]).
 
 pub mod bays;
 pub mod cockpit;
@@ -13,12 +14,68 @@ pub mod rotor;
 pub mod tail;
 pub mod wing;
 
+use engine::aircraft::Params as Aircraft;
 use engine::math::{TAU, cos, max, min, sin, sqrt};
 
-use crate::mesh::Point;
+use crate::ac3d::Part;
+use crate::mesh::{Point, add, scale};
 
 /// The sides: index and sign of the buttline. The left one is made as the image of the right one.
 pub const SIDES: [(usize, &str, f64); 2] = [(0, "left", -1.0), (1, "right", 1.0)];
+
+/// Where another aircraft has what was drawn in stations of the XV-15: as far along its own fuselage.
+#[derive(Clone, Copy)]
+pub struct Likeness {
+    nose_m: f64,
+    keel_m: f64,
+    size: f64,
+}
+
+impl Likeness {
+    /// Stations of the XV-15's nose and tail, and the waterline of its keel, m.
+    const DRAWN_M: [f64; 3] = [2.85, 15.34, 0.58];
+
+    /// Of an aircraft.
+    pub fn of(aircraft: &Aircraft) -> Self {
+        let section = &aircraft.display.fuselage.section_m;
+        let [nose, tail, keel] = Self::DRAWN_M;
+        let ends = section.first().zip(section.last());
+        let [nose_m, tail_m] = ends.map_or([nose, tail], |(first, last)| [first[0], last[0]]);
+        let keel_m = section.iter().map(|row| row[2]).reduce(min).unwrap_or(keel);
+        Self { nose_m, keel_m, size: (tail_m - nose_m) / (tail - nose) }
+    }
+
+    /// A station.
+    pub fn aft(self, drawn_m: f64) -> f64 {
+        self.nose_m + self.size * (drawn_m - Self::DRAWN_M[0])
+    }
+
+    /// A waterline.
+    pub fn up(self, drawn_m: f64) -> f64 {
+        self.keel_m + self.size * (drawn_m - Self::DRAWN_M[2])
+    }
+
+    /// A length, or a buttline.
+    pub fn length(self, drawn_m: f64) -> f64 {
+        self.size * drawn_m
+    }
+
+    /// A point.
+    pub fn at(self, [aft, right, up]: Point) -> Point {
+        [self.aft(aft), self.length(right), self.up(up)]
+    }
+
+    /// A part.
+    pub fn part(self, mut part: Part) -> Part {
+        part.mesh = part.mesh.moved(|at| self.at(at), false);
+        part
+    }
+
+    /// A point that was drawn from `origin_m`, which the file has.
+    pub fn from(self, origin_m: Point, drawn_m: Point) -> Point {
+        add(origin_m, scale(drawn_m, self.size))
+    }
+}
 
 /// `count` + 1 numbers from one to another.
 pub fn steps(from: f64, to: f64, count: u16) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 use engine::aircraft::Params as Aircraft;
 
-use super::{SIDES, Smooth, steps};
+use super::{Likeness, SIDES, Smooth, steps};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Half, Mesh, Point, ring};
 
@@ -10,6 +10,8 @@ use crate::mesh::{Half, Mesh, Point, ring};
 const EXHAUST_M: f64 = 0.30;
 /// The painted band begins this far behind the front end, and is this wide, m.
 const BAND_M: [f64; 2] = [0.25, 0.30];
+/// The same of a line behind it.
+const LINE_M: [f64; 2] = [0.60, 0.07];
 
 /// Pivot of the nacelle on a side, −1 left or 1 right.
 pub fn pivot_m(aircraft: &Aircraft, side: f64) -> Point {
@@ -46,15 +48,19 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     let mut nacelle = Mesh::default();
     nacelle.skin(material::WHITE, &skin);
     let [low, high] = [skin[0][0][2], skin[skin.len() - 1][0][2]];
-    nacelle.paint(&[Half::below(2, low + EXHAUST_M)], material::METAL);
-    let band = [high - BAND_M[0] - BAND_M[1], high - BAND_M[0]];
-    nacelle.paint(&[Half::above(2, band[0]), Half::below(2, band[1])], material::BLUE);
-    let line = [band[0] - 0.12, band[0] - 0.05];
-    nacelle.paint(&[Half::above(2, line[0]), Half::below(2, line[1])], material::LIGHT_BLUE);
-    nacelle.join(openings(pivot, low, high));
+    let like = Likeness::of(aircraft);
+    nacelle.paint(&[Half::below(2, low + like.length(EXHAUST_M))], material::METAL);
+    let bands = [(BAND_M, material::BLUE), (LINE_M, material::LIGHT_BLUE)];
+    for ([from, wide], colour) in bands {
+        let [from, to] = [from + wide, from].map(|m| high - like.length(m));
+        nacelle.paint(&[Half::above(2, from), Half::below(2, to)], colour);
+    }
+    let [bottom, top] = [low, high].map(|end| [pivot[0], pivot[1], end]);
+    nacelle.join(exhaust().moved(|at| like.from(bottom, at), false));
+    nacelle.join(intakes().moved(|at| like.from(top, at), false));
     let mut spinner = Mesh::default();
     spinner.body(material::BLUE, &rings(&shape.spinner_m, pivot, 14));
-    let glow = glow(pivot, low);
+    let glow = glow().moved(|at| like.from(bottom, at), false);
     for (_, name, side) in SIDES {
         let of = |mesh: &Mesh| if side > 0.0 { mesh.clone() } else { mesh.mirrored() };
         parts.push(Part::new(format!("nacelle.{name}"), of(&nacelle)).smooth(50.0));
@@ -64,31 +70,35 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     parts
 }
 
-/// The exhaust's inside, and the intakes: scoops on the front below the hub.
-fn openings(pivot: Point, low: f64, high: f64) -> Mesh {
-    let mut mesh = Mesh::default();
-    let circle =
-        |radius: f64, up: f64| ring(24, |s, c| [pivot[0] + radius * c, pivot[1] + radius * s, up]);
+fn circle(radius: f64, up: f64) -> Vec<Point> {
+    ring(24, |s, c| [radius * c, radius * s, up])
+}
+
+/// The exhaust's inside, from the middle of the nacelle's lower end.
+fn exhaust() -> Mesh {
     let mut pipe = Mesh::default();
-    pipe.skin(material::DARK, &[circle(0.195, low), circle(0.15, low + 0.35)]);
-    mesh.join(pipe.inside_out());
-    let lid = circle(0.36, high - 0.01);
+    pipe.skin(material::DARK, &[circle(0.195, 0.0), circle(0.15, 0.35)]);
+    pipe.inside_out()
+}
+
+/// The intakes, from the middle of the nacelle's upper end: scoops on the front below the hub.
+fn intakes() -> Mesh {
+    let mut mesh = Mesh::default();
+    let lid = circle(0.36, -0.01);
     mesh.face(material::DARK, &lid.into_iter().rev().collect::<Vec<_>>());
     // Two scoops, aft with the mast up: below as an aeroplane.
     for across in [-0.19, 0.19] {
         let scoop = |up: f64, tall: f64, out: f64| {
-            ring(18, |s, c| [pivot[0] + out + tall * c, pivot[1] + across + 0.135 * s, up])
+            ring(18, |s, c| [out + tall * c, across + 0.135 * s, up])
         };
         let rings = [
-            scoop(high - 0.16, 0.105, 0.36),
-            scoop(high - 0.35, 0.115, 0.40),
-            scoop(high - 0.75, 0.11, 0.42),
-            scoop(high - 1.15, 0.06, 0.42),
+            scoop(-0.16, 0.105, 0.36),
+            scoop(-0.35, 0.115, 0.40),
+            scoop(-0.75, 0.11, 0.42),
+            scoop(-1.15, 0.06, 0.42),
         ];
         mesh.body(material::WHITE, &rings);
-        let mouth = ring(18, |s, c| {
-            [pivot[0] + 0.36 + 0.085 * c, pivot[1] + across + 0.115 * s, high - 0.155]
-        });
+        let mouth = ring(18, |s, c| [0.36 + 0.085 * c, across + 0.115 * s, -0.155]);
         mesh.body(
             material::BLACK,
             &[mouth.clone(), mouth.iter().map(|&[x, y, z]| [x, y, z - 0.005]).collect()],
@@ -97,10 +107,10 @@ fn openings(pivot: Point, low: f64, high: f64) -> Mesh {
     mesh
 }
 
-/// A disc inside the exhaust.
-fn glow(pivot: Point, low: f64) -> Mesh {
+/// A disc inside the exhaust, from the middle of the nacelle's lower end.
+fn glow() -> Mesh {
     let mut mesh = Mesh::default();
-    let disc = ring(20, |s, c| [pivot[0] + 0.16 * c, pivot[1] + 0.16 * s, low + 0.22]);
+    let disc = ring(20, |s, c| [0.16 * c, 0.16 * s, 0.22]);
     mesh.face(material::GLOW, &disc);
     mesh.two_sided()
 }

@@ -9,7 +9,7 @@ use engine::aircraft::Params as Aircraft;
 use engine::math::{TAU, cos, max, sin, tan};
 use engine::table::axis::RadialStation;
 
-use super::{SIDES, front, nacelle, steps};
+use super::{Likeness, SIDES, front, nacelle, steps};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Half, Mesh, Point, ring};
 use crate::paint;
@@ -85,10 +85,12 @@ fn blade(aircraft: &Aircraft, azimuth_rad: f64) -> Mesh {
     mesh.paint(&[outside], material::YELLOW);
     // The grip, from the hub to the root.
     let grip = |out: f64| place(hub, [out, 0.0, rise * out], [s, c]);
+    let like = Likeness::of(aircraft);
+    let inside = like.length(0.12);
     mesh.cone(
         material::METAL,
-        (grip(0.12), 0.09),
-        (grip(rotors.blade.root_norm * rotors.radius_m + 0.12), 0.065),
+        (grip(inside), like.length(0.09)),
+        (grip(rotors.blade.root_norm * rotors.radius_m + inside), like.length(0.065)),
         14,
     );
     mesh

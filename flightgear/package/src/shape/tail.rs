@@ -3,7 +3,7 @@
 use engine::aircraft::Params as Aircraft;
 use engine::display::{Fins, Tailplane};
 
-use super::{Smooth, front, place, rear, steps};
+use super::{Likeness, Smooth, front, place, rear, steps};
 use crate::ac3d::{Part, material};
 use crate::mesh::{Half, Mesh, Point};
 
@@ -11,10 +11,8 @@ use crate::mesh::{Half, Mesh, Point};
 const ELEVATOR_NORM: f64 = 0.70;
 /// The rudders begin here.
 const RUDDER_NORM: f64 = 0.70;
-/// Waterlines of the rudders' ends, m.
-const RUDDER_M: [f64; 2] = [1.75, 3.50];
-/// The elevator leaves the fuselage's end free, m.
-const GAP_M: f64 = 0.16;
+/// The rudders' ends, in parts of the fins' height from the lower tip.
+const RUDDER_HEIGHT_NORM: [f64; 2] = [0.30 / 2.35, 2.05 / 2.35];
 
 fn quarter_m(plane: &Tailplane, right: f64) -> Point {
     [plane.quarter_chord_m.x, right, plane.quarter_chord_m.z]
@@ -29,11 +27,17 @@ pub fn elevator_hinge_m(aircraft: &Aircraft) -> [Point; 2] {
     })
 }
 
+/// Waterlines of the rudders' ends, m.
+fn rudder_m(section: &Smooth<3>) -> [f64; 2] {
+    let [lower, upper] = section.range();
+    RUDDER_HEIGHT_NORM.map(|part| lower + part * (upper - lower))
+}
+
 /// Hinge of the right rudder, from its lower to its upper end.
 pub fn rudder_hinge_m(aircraft: &Aircraft) -> [Point; 2] {
     let fins = &aircraft.display.vertical_stabilizers;
     let section = Smooth::new(&fins.section_m);
-    RUDDER_M.map(|up| {
+    rudder_m(&section).map(|up| {
         let [_, chord, aft] = section.at(up);
         [aft + (RUDDER_NORM - 0.25) * chord, fins.buttline_m, up]
     })
@@ -41,8 +45,9 @@ pub fn rudder_hinge_m(aircraft: &Aircraft) -> [Point; 2] {
 
 /// Stabiliser, elevator, fins and rudders.
 pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
-    let mut parts = tailplane(&aircraft.display.horizontal_stabilizer);
-    let (fin, rudder) = fin(&aircraft.display.vertical_stabilizers);
+    let like = Likeness::of(aircraft);
+    let mut parts = tailplane(&aircraft.display.horizontal_stabilizer, like);
+    let (fin, rudder) = fin(&aircraft.display.vertical_stabilizers, like);
     parts.extend([
         Part::new("fin.left", fin.mirrored()).smooth(35.0),
         Part::new("fin.right", fin).smooth(35.0),
@@ -52,7 +57,7 @@ pub fn parts(aircraft: &Aircraft) -> Vec<Part> {
     parts
 }
 
-fn tailplane(plane: &Tailplane) -> Vec<Part> {
+fn tailplane(plane: &Tailplane, like: Likeness) -> Vec<Part> {
     let half = 0.5 * plane.span_m;
     let span = |outline, from: f64, to: f64| {
         [from, to].map(|right| place(outline, quarter_m(plane, right), plane.chord_m, false))
@@ -64,13 +69,14 @@ fn tailplane(plane: &Tailplane) -> Vec<Part> {
     let before = quarter_m(plane, 0.0)[0] - 0.20 * plane.chord_m;
     fixed.paint(&[Half::below(0, before)], material::GREY);
     let mut right = Mesh::default();
-    right.body(material::WHITE, &span(&moving, GAP_M, half - 0.05));
+    // The elevator leaves the fuselage's end free.
+    right.body(material::WHITE, &span(&moving, like.length(0.16), half - like.length(0.05)));
     let mut elevator = right.mirrored();
     elevator.join(right);
     vec![Part::new("tailplane", fixed).smooth(35.0), Part::new("elevator", elevator).smooth(35.0)]
 }
 
-fn fin(fins: &Fins) -> (Mesh, Mesh) {
+fn fin(fins: &Fins, like: Likeness) -> (Mesh, Mesh) {
     let section = Smooth::new(&fins.section_m);
     let [lower, upper] = section.range();
     let rings = |outline: &super::Outline, from: f64, to: f64| -> Vec<Vec<Point>> {
@@ -85,17 +91,19 @@ fn fin(fins: &Fins) -> (Mesh, Mesh) {
     let whole = front(fins.thickness_ratio, 1.0);
     let cut = front(fins.thickness_ratio, RUDDER_NORM);
     let moving = rear(fins.thickness_ratio, RUDDER_NORM + 0.02);
+    let ([low, high], gap) = (rudder_m(&section), like.length(0.012));
     let mut fin = Mesh::default();
-    fin.body(material::WHITE, &rings(&whole, lower, RUDDER_M[0]));
-    fin.body(material::WHITE, &rings(&cut, RUDDER_M[0], RUDDER_M[1]));
-    fin.body(material::WHITE, &rings(&whole, RUDDER_M[1], upper));
+    fin.body(material::WHITE, &rings(&whole, lower, low));
+    fin.body(material::WHITE, &rings(&cut, low, high));
+    fin.body(material::WHITE, &rings(&whole, high, upper));
     let mut rudder = Mesh::default();
-    rudder.body(material::WHITE, &rings(&moving, RUDDER_M[0] + 0.012, RUDDER_M[1] - 0.012));
+    rudder.body(material::WHITE, &rings(&moving, low + gap, high - gap));
+    let below_tip = |m: f64| upper - like.length(m);
     for mesh in [&mut fin, &mut rudder] {
         // A broad band of blue with a light one below it.
-        mesh.paint(&[Half::above(2, upper - 0.62)], material::BLUE);
+        mesh.paint(&[Half::above(2, below_tip(0.62))], material::BLUE);
         mesh.paint(
-            &[Half::above(2, upper - 0.80), Half::below(2, upper - 0.68)],
+            &[Half::above(2, below_tip(0.80)), Half::below(2, below_tip(0.68))],
             material::LIGHT_BLUE,
         );
     }
