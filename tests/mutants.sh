@@ -5,9 +5,9 @@
 #   tests/mutants.sh [COUNT [SEED [COMMIT]]]    200, 1 and HEAD without; a minute or more a change
 #
 # The changes are those of cargo-mutants: an operator for another, a constant for a function, a deleted field or arm.
-# Each meets the tests of its own crate first (those of the flight model all that fly it), and if it passes every test
-# of the workspace. What became of each stands in target/mutants, and a run of the same commit and seed that was
-# stopped goes on there.
+# Each meets the tests of its own crate first (those of the flight model then all that fly it), and if it passes every
+# test of the workspace. What became of each stands in tests/mutants/COMMIT-SEED.jsonl, and a run of the same commit
+# and seed that was stopped goes on there, on another machine too if that file is committed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if ! cargo mutants --version >/dev/null 2>&1; then
