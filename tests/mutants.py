@@ -11,9 +11,11 @@ from __future__ import annotations
 import json
 import os
 import random
+import re
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 from functools import partial
 from pathlib import Path
@@ -42,35 +44,42 @@ def listed(tree: Path) -> list[dict]:
     ]
 
 
-def passes(tree: Path, packages: list[str], only_build: bool = False) -> bool:
-    """Whether these tests pass, or compile. The first that fails ends it."""
-    command = ["cargo", "test", "--quiet", "--no-default-features", "--lib", "--bins", "--tests", *packages]
+def failure(tree: Path, packages: list[str], only_build: bool = False) -> str | None:
+    """The first of these tests that fails, or that they do not compile; none if they pass."""
+    command = ["cargo", "test", "--no-default-features", "--lib", "--bins", "--tests", *packages]
     if only_build:
         command.append("--no-run")
     else:
         command += ["--", "--fail-fast", "-Zunstable-options"]
         command += [word for name in BLESSED for word in ("--skip", name)]
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "stdin": subprocess.DEVNULL}
     limit = partial(resource.setrlimit, resource.RLIMIT_CPU, (CPU_S, CPU_S))
-    process = subprocess.Popen(command, cwd=tree, start_new_session=True, preexec_fn=limit, **quiet)
-    try:
-        return process.wait(PATIENCE_S) == 0
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, 9)
-        process.wait()
-        return False
+    with tempfile.TemporaryFile("w+", errors="replace") as said:
+        process = subprocess.Popen(
+            command, cwd=tree, stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True, preexec_fn=limit
+        )
+        try:
+            if process.wait(PATIENCE_S) == 0:
+                return None
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, 9)
+            process.wait()
+        said.seek(0)
+        text = said.read()
+    failed = re.search(r"^test (\S+).* FAILED$", text, re.MULTILINE)
+    return failed[1] if failed else (text.strip().splitlines() or ["no word"])[-1]
 
 
-def fate(tree: Path, change: dict) -> str:
-    """What becomes of a change: `unbuilt`, `noticed` or `missed`."""
+def fate(tree: Path, change: dict) -> dict:
+    """What becomes of a change: `unbuilt`, `noticed` and by which test, or `missed`."""
     own = ["-p", change["package"]]
     near = [word for name in FLIGHT_MODEL for word in ("-p", name)]
     stages = [own, *([near] if change["package"] in FLIGHT_MODEL else []), ["--workspace"]]
     patched = subprocess.run(["patch", "--silent", change["file"]], input=change["diff"], text=True, cwd=tree)
     try:
-        if patched.returncode or not passes(tree, own, only_build=True):
-            return "unbuilt"
-        return "missed" if all(passes(tree, stage) for stage in stages) else "noticed"
+        if patched.returncode or failure(tree, own, only_build=True):
+            return {"fate": "unbuilt"}
+        by = next(filter(None, (failure(tree, stage) for stage in stages)), None)
+        return {"fate": "noticed", "by": by} if by else {"fate": "missed"}
     finally:
         subprocess.run(["git", "checkout", "--quiet", "--", "."], cwd=tree, check=True)
 
@@ -102,17 +111,18 @@ def main() -> int:
     fates = {entry["name"]: entry["fate"] for entry in known}
     reasons = {entry["name"]: entry.get("why", "no reason given") for entry in known}
     print(f"{len(drawn)} of {len(every)} changes, seed {seed}, commit {commit}; {len(fates)} known", flush=True)
-    if not fates and not passes(tree, ["--workspace"]):
-        sys.exit("the tests fail without any change")
+    if not fates and (why := failure(tree, ["--workspace"])):
+        sys.exit(f"the tests fail without any change: {why}")
     for change in drawn:
         name = change["name"]
         if name in fates:
             continue
         begun = time.monotonic()
-        fates[name] = fate(tree, change)
+        what = fate(tree, change)
+        fates[name] = what["fate"]
         with book.open("a") as file:
-            print(json.dumps({"name": name, "fate": fates[name]}), file=file)
-        print(f"{fates[name]:<8} {time.monotonic() - begun:4.0f} s  {name}", flush=True)
+            print(json.dumps({"name": name, **what}), file=file)
+        print(f"{what['fate']:<8} {time.monotonic() - begun:4.0f} s  {name}: {what.get('by', '')}", flush=True)
 
     fates = {change["name"]: fates[change["name"]] for change in drawn}
     missed = sorted(name for name, what in fates.items() if what == "missed")
