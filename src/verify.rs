@@ -4,23 +4,23 @@ mod bless;
 mod corpus;
 mod forms;
 mod recordings;
+mod run;
 
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::Result;
 use engine::STEP_S;
 use indicatif::{ProgressBar, ProgressStyle};
-use replay::{Judgement, Options, Outcome, THREADS_MAX, Verdict, verify};
+use replay::{Options, THREADS_MAX};
 
-use crate::report;
 use crate::status::Status;
-use crate::window::WindowArgs;
 use corpus::Shard;
+use run::{How, Run, Verified};
 
 /// Logs to be reflown.
 #[derive(clap::Args)]
@@ -45,34 +45,6 @@ pub struct Args {
     how: How,
 }
 
-/// How each log is reflown.
-#[derive(clap::Args)]
-struct How {
-    #[command(flatten)]
-    window: WindowArgs,
-    /// Instead of verifying, say what moved since each log was flown, by how much and when; exit 1 when
-    /// something did
-    #[arg(long, conflicts_with_all = ["from", "until", "around", "shard"])]
-    moved: bool,
-    /// Like --moved, and put today's flight in the place of each log that moved: after a deliberate change of
-    /// the model, for golden flights
-    #[arg(long, conflicts_with_all = ["from", "until", "around", "shard"])]
-    bless: bool,
-    /// Fly them with this aircraft file instead of their own
-    #[arg(long, value_name = "FILE")]
-    aircraft: Option<PathBuf>,
-    /// Fly logs of other versions of the flight model too, as a comparison: exit 6, never 0
-    #[arg(long, conflicts_with_all = ["from", "until", "around"])]
-    across_versions: bool,
-}
-
-impl How {
-    fn options(&self, log: &Path, threads: usize) -> Result<Options> {
-        let (window, across_versions) = (self.window.of(log)?, self.across_versions);
-        Ok(Options { window, across_versions, threads, ..Options::default() })
-    }
-}
-
 /// Form of the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
@@ -82,97 +54,6 @@ enum Format {
     Json,
     /// For CI servers: JUnit's XML
     Junit,
-}
-
-/// What became of one log.
-struct Verified {
-    log: PathBuf,
-    /// The verdict; of what cannot be reflown, why not.
-    verdict: Result<Verdict, Judgement>,
-    took: Duration,
-}
-
-impl Verified {
-    fn new(log: &Path, how: Option<&How>, threads: usize, progress: impl FnMut(u64)) -> Self {
-        let started = Instant::now();
-        let whole = Options { threads, ..Options::default() };
-        let options = how.map_or(Ok(whole), |how| how.options(log, threads));
-        let verdict = options.map_err(|error| format!("{error:#}")).and_then(|options| {
-            verify(log, &options, progress).map_err(|error| report::refusal(&error))
-        });
-        let verdict = verdict.map_err(Judgement::unusable);
-        Self { log: log.into(), verdict, took: started.elapsed() }
-    }
-
-    /// What the log is.
-    fn judgement(&self) -> &Judgement {
-        match &self.verdict {
-            Ok(verdict) => &verdict.judgement,
-            Err(judgement) => judgement,
-        }
-    }
-
-    /// The exit status it alone would give.
-    fn status(&self) -> Status {
-        self.judgement().into()
-    }
-
-    /// Simulated time that was reflown, s.
-    fn flown_s(&self) -> f64 {
-        self.verdict.as_ref().map_or(0.0, |verdict| verdict.facts.same as f64 * STEP_S)
-    }
-
-    fn say(&self) {
-        match &self.verdict {
-            Ok(verdict) => {
-                say!("{}: {verdict}", self.log.display());
-                let (flown_s, took_s) = (self.flown_s(), self.took.as_secs_f64());
-                say!("reflown in {took_s:.2} s, {:.0} times real time", flown_s / took_s);
-            }
-            Err(unusable) => complain!("tiltrotor: {}: {unusable}", self.log.display()),
-        }
-    }
-}
-
-/// Everything that was verified.
-struct Run {
-    logs: Vec<Verified>,
-    jobs: usize,
-    shard: Option<Shard>,
-    took: Duration,
-}
-
-impl Run {
-    /// The gravest of all.
-    fn status(&self) -> Status {
-        Status::gravest(self.logs.iter().map(Verified::status))
-    }
-
-    fn count(&self, outcome: Outcome) -> usize {
-        self.logs.iter().filter(|log| log.judgement().outcome == outcome).count()
-    }
-
-    fn flown_s(&self) -> f64 {
-        self.logs.iter().map(Verified::flown_s).sum()
-    }
-
-    fn say_sum(&self) {
-        let counts: Vec<_> = Outcome::ALL
-            .into_iter()
-            .map(|outcome| (self.count(outcome), outcome.name().replace('_', " ")))
-            .filter(|(count, _)| *count > 0)
-            .map(|(count, outcome)| format!("{count} {outcome}"))
-            .collect();
-        let (flown_s, took_s) = (self.flown_s(), self.took.as_secs_f64());
-        say!(
-            "{} logs{}: {}; {flown_s:.1} s reflown in {took_s:.2} s by {} jobs, {:.0} times real time",
-            self.logs.len(),
-            self.shard.map_or_else(String::new, |shard| format!(" of shard {shard}")),
-            counts.join(", "),
-            self.jobs,
-            flown_s / took_s
-        );
-    }
 }
 
 /// Verifies every log; the gravest outcome is the exit status.

@@ -8,6 +8,7 @@
 
 use std::sync::LazyLock;
 
+use crate::builtin;
 use crate::error::ConfigError;
 use crate::tree::{self, Node, Numbers, Value};
 
@@ -15,7 +16,7 @@ use crate::tree::{self, Node, Numbers, Value};
 const TABLES: [&str; 3] = ["envelope", "pilot", "display"];
 
 static XV15: LazyLock<Result<Vec<(String, Node)>, ConfigError>> = LazyLock::new(|| {
-    let Value::Table(nodes) = tree::parse("xv15.toml", crate::XV15, Numbers::Sourced)?.0.value
+    let Value::Table(nodes) = tree::parse("xv15.toml", builtin::XV15, Numbers::Sourced)?.0.value
     else {
         return Ok(Vec::new());
     };

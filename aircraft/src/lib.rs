@@ -10,6 +10,7 @@
 //!   `nacelle_degps = { mast_tilt_deg = [0, 90], value = [7.8, 1.9], source = "…", trust = "…" }`.
 //! - What cannot be used is refused with file, line, key and what was expected: [`ConfigError`].
 
+mod builtin;
 mod check;
 mod complete;
 mod edit;
@@ -21,49 +22,18 @@ mod tree;
 pub mod units;
 mod urdf;
 
+pub use builtin::{
+    DEFAULT_SCENARIO, FLIGHTGEAR_MAP, KEYBOARD_MAP, PILOT_MAP, STARTS, STICK_MAP, XV15,
+};
 pub use edit::{EditError, near, set, values};
 pub use error::{ConfigError, Problem};
 pub use provenance::{Provenance, Trust};
 pub use urdf::urdf;
 
-/// Start positions by name, each with what it is and its scenario, to be read by [`start`].
-pub const STARTS: [(&str, &str, &str); 4] = [
-    ("runway", "on the threshold of runway 26 at Hilo", DEFAULT_SCENARIO),
-    ("hover-50ft", "in a hover 50 ft above it", include_str!("../scenario/hover-50ft.toml")),
-    (
-        "approach-60",
-        "three miles out, nacelles at 60 deg, 100 kt, sinking at 500 ft/min",
-        include_str!("../scenario/approach-60.toml"),
-    ),
-    (
-        "downwind",
-        "as an aeroplane on the downwind leg, 170 kt at 1,050 ft",
-        include_str!("../scenario/downwind.toml"),
-    ),
-];
-
 use engine::cockpit;
 use engine::start::Start;
 use serde::de::DeserializeOwned;
 use tree::Numbers;
-
-/// The XV-15, to be read by [`aircraft`].
-pub const XV15: &str = include_str!("../xv15.toml");
-
-/// Cockpit map of the built-in pilots and scripts, to be read by [`cockpit`](cockpit()).
-pub const PILOT_MAP: &str = include_str!("../cockpit/pilot.toml");
-
-/// Cockpit map of the keyboard, to be read by [`cockpit`](cockpit()).
-pub const KEYBOARD_MAP: &str = include_str!("../cockpit/keyboard.toml");
-
-/// Cockpit map of a common USB stick, to be read by [`cockpit`](cockpit()).
-pub const STICK_MAP: &str = include_str!("../cockpit/stick.toml");
-
-/// Cockpit map of FlightGear's own stick, keyboard and mouse, to be read by [`cockpit`](cockpit()).
-pub const FLIGHTGEAR_MAP: &str = include_str!("../cockpit/flightgear.toml");
-
-/// Where a flight begins unless told otherwise, to be read by [`start`].
-pub const DEFAULT_SCENARIO: &str = include_str!("../scenario/default.toml");
 
 /// Reads an aircraft file. Its cockpit map is empty: that has a file of its own.
 ///

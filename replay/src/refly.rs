@@ -279,7 +279,7 @@ impl Reflight {
     /// What stands between the log's version and this one; `None` when nothing does. Channels count
     /// once a message of theirs was read.
     pub fn versions(&self) -> Option<Versions> {
-        Versions::of(self)
+        Versions::of(&self.reader, &self.notes)
     }
 
     /// How the log ends, once it has been flown.

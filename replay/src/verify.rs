@@ -90,7 +90,7 @@ pub fn verify_while(
         let passed = stretches::fly(&mut flight, options.threads, &options.window, &mut progress)?;
         match passed {
             Passed::Same(facts) => {
-                let versions = Versions::of(&flight).map(Box::new);
+                let versions = flight.versions().map(Box::new);
                 let (judgement, facts) = (facts.judge(), *facts);
                 return Ok(Verdict { judgement, facts, divergence: None, versions });
             }
@@ -136,7 +136,7 @@ fn one_pass(
     };
     diagnosis.blocks(&flight.reader.outputs)?;
     let divergence = diagnosis.divergence;
-    let versions = Versions::of(&flight);
+    let versions = flight.versions();
     facts.end_of_reflight(&mut flight, disorder, &options.window);
     facts.diverged_field = divergence
         .as_ref()

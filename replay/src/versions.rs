@@ -1,10 +1,8 @@
 //! What stands between the version that wrote a log and this one.
 
-use logs::Identity;
 use logs::evolution::Difference;
 use logs::records::STATE;
-
-use crate::refly::Reflight;
+use logs::{FlightReader, Identity};
 
 /// The log's version and this one.
 #[derive(Clone, Debug)]
@@ -21,10 +19,8 @@ pub struct Versions {
 
 impl Versions {
     /// `None` when nothing differs.
-    pub(crate) fn of(flight: &Reflight) -> Option<Self> {
-        let reader = &flight.reader;
+    pub(crate) fn of(reader: &FlightReader, notes: &[String]) -> Option<Self> {
         let differences = reader.differences();
-        let notes = flight.notes.clone();
         if reader.same_model && differences.is_empty() && notes.is_empty() {
             return None;
         }
@@ -32,7 +28,7 @@ impl Versions {
             recorded_model: reader.identity.get(Identity::MODEL).into(),
             model: engine::MODEL_VERSION,
             differences,
-            notes,
+            notes: notes.to_vec(),
         })
     }
 

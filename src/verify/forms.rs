@@ -7,7 +7,7 @@ use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use replay::{Outcome, Verdict, Versions};
 use serde_json::{Value, json};
 
-use super::{Run, Verified};
+use super::run::{Run, Verified};
 use crate::json;
 use crate::status::Status;
 

@@ -9,7 +9,7 @@ mod with_rerun {
     use logs::output::Output;
     use replay::view::{Comparison, Other};
 
-    use super::super::Run;
+    use super::super::run::{Run, Verified};
     use crate::status::Status;
 
     /// Makes the folder: better before the logs are reflown than after.
@@ -19,7 +19,7 @@ mod with_rerun {
 
     /// Draws every log that diverged. Names go to standard error, where no report is.
     pub fn save(run: &Run, folder: &Path) -> Result<()> {
-        let parted = |log: &&super::super::Verified| {
+        let parted = |log: &&Verified| {
             log.verdict.as_ref().is_ok_and(|verdict| verdict.divergence.is_some())
         };
         for verified in run.logs.iter().filter(parted) {
@@ -75,6 +75,6 @@ pub fn prepare(_: &std::path::Path) -> anyhow::Result<()> {
 
 /// Is not come to.
 #[cfg(not(feature = "rerun"))]
-pub fn save(_: &super::Run, _: &std::path::Path) -> anyhow::Result<()> {
+pub fn save(_: &super::run::Run, _: &std::path::Path) -> anyhow::Result<()> {
     Ok(())
 }

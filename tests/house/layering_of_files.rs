@@ -2,21 +2,10 @@
 //!
 //! A circle of files is one file in several places: none of them can be read, tested or changed alone.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 use crate::tree;
 use crate::tree::source::{self, Graph, Module};
-
-/// Circles that are known and are to go, by crate: the files of one knot a line. An entry that is no
-/// circle any more has to leave.
-const KNOWN_CIRCLES: &[(&str, &[&str])] = &[
-    ("aircraft", &["the crate's root", "complete"]),
-    ("logs", &["export", "export::csv", "export::flights", "export::parquet"]),
-    ("recorder", &["pilots", "pilots::phase"]),
-    ("replay", &["refly", "versions"]),
-    ("tiltrotor", &["verify", "verify::forms", "verify::recordings"]),
-];
 
 /// The engine's blocks, and the files that each is made of, modules below it included.
 const BLOCKS: &[(&str, &[&str])] = &[
@@ -82,34 +71,20 @@ fn block_of(module: &Module) -> Option<&'static str> {
 
 #[test]
 fn no_file_needs_another_that_needs_it() {
-    let (mut wrong, mut found) = (Vec::new(), BTreeSet::new());
+    let mut wrong = Vec::new();
     for (name, (folder, manifest)) in tree::packages() {
         for root in source::roots(&folder, &manifest) {
             let graph = Graph::of(&root);
             for knot in graph.knots() {
+                let circle = graph.circle(knot.first().expect("a file"));
+                let circle: Vec<_> = circle.iter().map(spelled).collect();
                 let files: Vec<_> = knot.iter().map(spelled).collect();
-                let known = KNOWN_CIRCLES.iter().any(|(of, known)| {
-                    *of == name && files.iter().all(|file| known.contains(&file.as_str()))
-                });
-                if !known {
-                    let circle = graph.circle(knot.first().expect("a file"));
-                    let circle: Vec<_> = circle.iter().map(spelled).collect();
-                    wrong.push(format!(
-                        "{name}: {} (in a knot of {}: {})",
-                        circle.join(" → "),
-                        files.len(),
-                        files.join(", ")
-                    ));
-                }
-                found.extend(files.into_iter().map(|file| (name.clone(), file)));
-            }
-        }
-    }
-    for (name, files) in KNOWN_CIRCLES {
-        for file in *files {
-            if !found.contains(&((*name).to_string(), (*file).to_string())) {
-                wrong
-                    .push(format!("{name}: {file} is in no circle any more: take it off the list"));
+                wrong.push(format!(
+                    "{name}: {} (in a knot of {}: {})",
+                    circle.join(" → "),
+                    files.len(),
+                    files.join(", ")
+                ));
             }
         }
     }
@@ -190,6 +165,6 @@ fn circles_are_found_through_re_exports_and_not_in_tests() {
     assert_eq!(needs("c::e"), ["the crate's root"]);
     assert_eq!(needs("d"), ["a", "c", "c::e"]);
     let knots = graph.knots();
-    assert_eq!(knots, [BTreeSet::from([module("a"), module("b")])]);
+    assert_eq!(knots, [[module("a"), module("b")].into()]);
     assert_eq!(graph.circle(&module("a")), ["a", "b", "a"].map(module));
 }

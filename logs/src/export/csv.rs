@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::Write;
 
-use super::{Cell, Column, Table};
+use super::table::{Cell, Column, Table};
 use crate::LogError;
 
 pub(super) struct CsvTable {

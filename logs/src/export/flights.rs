@@ -6,12 +6,21 @@ use std::path::Path;
 use engine::{STEP_NS, STEP_S};
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-use super::{Cell, Column, Judged};
+use super::table::{Cell, Column};
 use crate::channels::ChannelId;
 use crate::fields::Value;
 use crate::layout::Kind;
 use crate::setup::{CLOSING, Identity, METADATA, Setup};
 use crate::{Ending, LogError, Message, Messages};
+
+/// What a log is, as whoever exports it has found.
+#[derive(Clone, Copy, Debug)]
+pub struct Judged<'a> {
+    /// In one word.
+    pub outcome: &'a str,
+    /// In a sentence.
+    pub words: &'a str,
+}
 
 /// What is counted on the way through a log.
 pub(super) struct Flight {

@@ -12,8 +12,8 @@ mod csv;
 mod flights;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod table;
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -27,7 +27,10 @@ use crate::records::STATE;
 use crate::view;
 use crate::{Ending, LogError, Message, Messages, OpenOptions};
 
+pub use flights::Judged;
+
 use flights::Flight;
+use table::{Cell, Column, Table};
 
 /// What the tables are written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,55 +71,6 @@ pub struct Exported {
     pub bytes: u64,
     /// How the log ends: what comes before is in the tables.
     pub ending: Ending,
-}
-
-/// What a log is, as whoever exports it has found.
-#[derive(Clone, Copy, Debug)]
-pub struct Judged<'a> {
-    /// In one word.
-    pub outcome: &'a str,
-    /// In a sentence.
-    pub words: &'a str,
-}
-
-/// What a column holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ColumnKind {
-    Number(Kind),
-    Text,
-}
-
-/// A column of a table; a unit ends its name if it has one, or stands before the axis.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Column {
-    name: String,
-    kind: ColumnKind,
-}
-
-impl Column {
-    fn number(name: impl Into<String>, kind: Kind) -> Self {
-        Self { name: name.into(), kind: ColumnKind::Number(kind) }
-    }
-
-    fn text(name: impl Into<String>) -> Self {
-        Self { name: name.into(), kind: ColumnKind::Text }
-    }
-}
-
-/// A value of a row.
-#[derive(Clone, Debug)]
-enum Cell<'a> {
-    Number(Value),
-    Text(Cow<'a, str>),
-}
-
-/// A file of rows being written.
-trait Table {
-    /// Adds a row: a cell a column, of the column's kind.
-    fn push(&mut self, row: &[Cell]) -> Result<(), LogError>;
-
-    /// Ends the file and brings it to disk.
-    fn finish(self: Box<Self>) -> Result<(), LogError>;
 }
 
 /// Exports a log into the tables below `folder`. A flight that is there already is left alone, unless

@@ -12,7 +12,7 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type};
 
-use super::{Cell, Column, ColumnKind, Table};
+use super::table::{Cell, Column, ColumnKind, Table};
 use crate::LogError;
 use crate::fields::Value;
 use crate::layout::Kind;
