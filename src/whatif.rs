@@ -142,7 +142,8 @@ impl Wanted {
             else {
                 bail!("--set {change}: expected KEY=VALUE");
             };
-            let before = aircraft::values("aircraft.toml", &setup.aircraft_toml)?;
+            let words =
+                aircraft::change_in_words("aircraft.toml", &setup.aircraft_toml, key, value)?;
             let source = format!("what-if of {}", log.file_name().unwrap_or_default().display());
             setup.aircraft_toml =
                 aircraft::set("aircraft.toml", &setup.aircraft_toml, key, value, &source)
@@ -151,10 +152,7 @@ impl Wanted {
             // One at a time: the key that is wrong is the one that is told.
             aircraft::aircraft("aircraft.toml", &setup.aircraft_toml)
                 .with_context(|| format!("--set {change}"))?;
-            // A table would be a long word.
-            let was = before.iter().find(|(known, was)| known == key && was.len() <= 24);
-            let was = was.map_or_else(String::new, |(_, was)| format!(" (was {was})"));
-            said.push(format!("{key} = {value}{was}"));
+            said.push(words);
         }
         Ok((setup, said))
     }

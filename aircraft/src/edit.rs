@@ -186,6 +186,24 @@ pub fn values(file_name: &str, text: &str) -> Result<Vec<(String, String)>, Conf
     Ok(values)
 }
 
+/// What [`set`] does to a text, in words: what the key becomes, and what it was.
+///
+/// # Errors
+/// When the text is not TOML.
+pub fn change_in_words(
+    file_name: &str,
+    text: &str,
+    key: &str,
+    value: &str,
+) -> Result<String, ConfigError> {
+    /// A table would be a long word.
+    const TOLD_MAX: usize = 24;
+    let before = values(file_name, text)?;
+    let was = before.iter().find(|(known, was)| known == key && was.len() <= TOLD_MAX);
+    let was = was.map_or_else(String::new, |(_, was)| format!(" (was {was})"));
+    Ok(format!("{key} = {value}{was}"))
+}
+
 /// Every key that has a value, and that as written.
 fn leaves(path: &str, table: &dyn TableLike, into: &mut Vec<(String, String)>) {
     for (name, item) in table.iter() {

@@ -25,7 +25,7 @@ mod urdf;
 pub use builtin::{
     DEFAULT_SCENARIO, FLIGHTGEAR_MAP, KEYBOARD_MAP, PILOT_MAP, STARTS, STICK_MAP, XV15,
 };
-pub use edit::{EditError, near, set, values};
+pub use edit::{EditError, change_in_words, near, set, values};
 pub use error::{ConfigError, Problem};
 pub use provenance::{Provenance, Trust};
 pub use urdf::urdf;

@@ -115,10 +115,11 @@ fn what_if(
     for (key, value) in &wanted.set {
         let file = log.file_name().unwrap_or_default().display().to_string();
         let by = format!("what-if of {file}");
+        let words = files::change_in_words("aircraft.toml", &setup.aircraft_toml, key, value)?;
         setup.aircraft_toml = files::set("aircraft.toml", &setup.aircraft_toml, key, value, &by)?;
         // One at a time: the key that is wrong is the one that is told.
         files::aircraft("aircraft.toml", &setup.aircraft_toml)?;
-        said.push(format!("{key} = {value}"));
+        said.push(words);
     }
     wanted.window.apply(&mut reader)?;
     let initial = reader.initial;

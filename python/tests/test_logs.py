@@ -127,6 +127,17 @@ def test_a_what_if_is_the_commands(tmp_path, command, judged, hover):
         made = tiltrotor.whatif(hover, by_python, world=world, fail=["governor"], from_tick=100, force=True)
         assert made
         assert judged(by_python)["digest"] == judged(by_command)["digest"]
+    assert tiltrotor.facts(by_python)["changes"] == tiltrotor.facts(by_command)["changes"]
+
+
+def test_a_what_if_says_what_a_number_was(tmp_path, command, hover):
+    by_command, by_python = tmp_path / "command.mcap", tmp_path / "python.mcap"
+    key = "fcc.scas.washout_s"
+    said = command("whatif", hover, "--set", f"{key}=2", "--out", by_command)
+    assert said.returncode == 0, said.stderr
+    assert tiltrotor.whatif(hover, by_python, set={key: 2})
+    changes = [tiltrotor.facts(log)["changes"] for log in (by_command, by_python)]
+    assert changes == [f"{key} = 2 (was 1.5)"] * 2
 
 
 def test_reflown_outputs_are_those_recorded_where_some_are(hover):

@@ -85,8 +85,6 @@ pub struct Track {
     restarts: u32,
     /// Rows drawn so far.
     drawn: usize,
-    /// While it is flown, what moves is written row by row, and the rest every few rows.
-    live: bool,
     /// The path.
     pub trail: Vec<PathPoint>,
     /// Least distance between its points.
@@ -117,7 +115,6 @@ impl Track {
             begun: None,
             restarts: 0,
             drawn: 0,
-            live: false,
             trail: Vec::new(),
             trail_spacing_m: 1.0,
         }
@@ -126,7 +123,6 @@ impl Track {
     /// One that is drawn while it is flown.
     pub fn live(look: Look, aircraft: &Aircraft, own: Vec<(usize, Field)>) -> Self {
         let mut track = Self::new(look, aircraft, own);
-        track.live = true;
         track.lanes = Lanes::new(true);
         track.facts.live = true;
         track
@@ -185,7 +181,7 @@ impl Track {
 
     /// Rows between two writings.
     pub fn rows_per_chunk(&self) -> usize {
-        if self.live { ROWS_PER_CHUNK_LIVE } else { gathered(self.drawn) }
+        if self.facts.live { ROWS_PER_CHUNK_LIVE } else { gathered(self.drawn) }
     }
 
     /// Takes what devices said for a tick that is not drawn.
@@ -262,7 +258,7 @@ impl Track {
         self.rows.push(*outputs);
         self.tell_numbers(canvas, outputs);
         self.drawn += 1;
-        if self.live {
+        if self.facts.live {
             self.send_motion(canvas, std::slice::from_ref(outputs));
             self.events.go_on(canvas, &self.look, outputs.tick);
         }
@@ -365,7 +361,7 @@ impl Track {
     pub fn finish(&mut self, canvas: &mut Canvas) {
         self.flush(canvas);
         self.flush_times(canvas);
-        if !self.live {
+        if !self.facts.live {
             self.events.finish(canvas, &self.look);
         }
         self.send_whole(canvas);
@@ -407,7 +403,7 @@ impl Track {
         let ticks: Vec<u64> = rows.iter().map(|row| row.tick).collect();
         self.pages.flush(canvas, NUMBERS);
         self.rotor_pages.flush(canvas, NUMBERS_OF_ROTORS);
-        if self.live {
+        if self.facts.live {
             self.flush_times(canvas);
         } else {
             self.send_motion(canvas, &rows);
