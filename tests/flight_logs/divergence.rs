@@ -144,6 +144,7 @@ fn the_growth_is_told_from_second_to_second() {
     assert!(last["fields"].as_u64() > first["fields"].as_u64(), "{report:#}");
     let begins = growth["first_tick"].as_u64().expect("a tick");
     assert_eq!(last["tick"], begins + 2500);
+    assert_eq!(growth["last_tick"], begins + 2500, "no tick is compared beyond the last look");
 }
 
 #[test]

@@ -41,6 +41,18 @@ fn theory(at: f64, omega: f64, zeta: f64) -> Complex<f64> {
 }
 
 #[test]
+fn a_line_is_near_every_frequency_that_is_asked_for() {
+    let signal = vec![0.0; 3000];
+    for (segment_s, low_radps) in [(2.0, 0.3), (10.0, 0.3), (2.0, 5.0)] {
+        let spectra = Spectra::of(&signal, &signal, STEP_S, segment_s, low_radps);
+        let (least, most) = (0.009 * low_radps, 0.02 * low_radps);
+        let spacing = spectra.spacing_radps;
+        assert!(spacing <= most && (spacing >= least || segment_s > 5.0), "{spacing} rad/s");
+        assert_eq!(spectra.xx.len(), spectra.xy.len());
+    }
+}
+
+#[test]
 fn a_swept_spring_has_the_textbooks_response() {
     let input = sweep();
     let output = spring(&input, 3.0, 0.3);
