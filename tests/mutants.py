@@ -28,6 +28,8 @@ PICTURES = ("replay/src/view/", "src/view/")
 FLIGHT_MODEL = ("engine", "aircraft", "analysis")
 #: Tests of what blessing rewrites: whoever changed the code may have blessed the change.
 BLESSED = ("regress_", "listings::", "the_protocol_file_is_the_table", "the_written_validation")
+#: Tests that a busy machine can fail: what they notice may be the machine.
+TIMED = ("pictures_are_smooth",)
 #: A change that makes a loop endless is noticed by the first, of one process and whatever else the machine does; one
 #: that makes a test wait for ever by the second.
 CPU_S, PATIENCE_S = 900, 7200
@@ -51,7 +53,7 @@ def failure(tree: Path, packages: list[str], only_build: bool = False) -> str | 
         command.append("--no-run")
     else:
         command += ["--", "--fail-fast", "-Zunstable-options"]
-        command += [word for name in BLESSED for word in ("--skip", name)]
+        command += [word for name in (*BLESSED, *TIMED) for word in ("--skip", name)]
     limit = partial(resource.setrlimit, resource.RLIMIT_CPU, (CPU_S, CPU_S))
     with tempfile.TemporaryFile("w+", errors="replace") as said:
         process = subprocess.Popen(
