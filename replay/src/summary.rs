@@ -238,3 +238,51 @@ impl fmt::Display for Touchdown {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use engine::frames::Vec3;
+
+    use super::*;
+
+    #[test]
+    fn a_touchdown_is_the_first_weight_on_any_wheel_and_has_the_speed_of_the_tick_before() {
+        let mut state = State::default();
+        state.plant.weight_on_wheels = 0b111;
+        let mut gathered = Gathered::from(&state);
+        let mut fly = |tick: u64, wheels: u64, down_mps: f64| {
+            state.tick = tick;
+            state.plant.weight_on_wheels = wheels;
+            state.plant.velocity_mps = Vec3::new(3.0, 4.0, down_mps);
+            state.plant.position_m.x = tick as f64;
+            gathered.add(&state, &Outputs { tick, load_factor: down_mps, ..Outputs::default() });
+        };
+        fly(1, 0b111, 0.0);
+        fly(2, 0b001, -0.5);
+        fly(3, 0, -1.0);
+        fly(4, 0, 1.2);
+        fly(5, 0b010, 0.4);
+        fly(6, 0b110, 0.1);
+        fly(7, 0, -0.2);
+        fly(8, 0b111, 0.0);
+        let touched: Vec<_> = gathered
+            .touchdowns
+            .iter()
+            .map(|down| (down.tick, down.sink_mps, down.speed_mps, down.north_m))
+            .collect();
+        assert_eq!(touched, [(5, 1.2, 5.0, 5.0), (8, -0.2, 5.0, 8.0)]);
+        let load = gathered.extremes().find(|(name, ..)| *name == "load factor").expect("a load");
+        let (least, greatest) = (At { tick: 3, value: -1.0 }, At { tick: 4, value: 1.2 });
+        assert_eq!(load, ("load factor", "g", least, greatest));
+    }
+
+    #[test]
+    fn whoever_goes_on_from_the_ground_has_not_touched_down() {
+        let (flying, mut standing) = (State::default(), State::default());
+        standing.plant.weight_on_wheels = 1;
+        let mut gathered = Gathered::from(&flying);
+        gathered.restart(&standing);
+        gathered.add(&standing, &Outputs::default());
+        assert_eq!(gathered.touchdowns.len(), 0);
+    }
+}
