@@ -48,7 +48,7 @@ def listed(tree: Path) -> list[dict]:
 
 def failure(tree: Path, packages: list[str], only_build: bool = False) -> str | None:
     """The first of these tests that fails, or that they do not compile; none if they pass."""
-    command = ["cargo", "test", "--no-default-features", "--lib", "--bins", "--tests", *packages]
+    command = ["cargo", "test", "--no-default-features", "--tests", *packages]
     if only_build:
         command.append("--no-run")
     else:
