@@ -1,4 +1,4 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # Opens a flight in the rerun viewer without a screen and takes its picture.
 #
 #   tests/rerun_screenshot.sh FLIGHT.rrd OUT.png [SECONDS]
