@@ -1,7 +1,6 @@
 //! The envelope and the shape from the aircraft file: what reads them follows the file.
 
 use aircraft::XV15;
-use engine::aircraft::Params;
 use engine::display::Travels;
 use engine::envelope::Corridor;
 use engine::inputs::World;
@@ -170,68 +169,4 @@ fn full_scales_are_the_actuators_travels() {
         assert!((travel.greatest_rad() - deg * DEG).abs() < 1e-12, "{travel:?} is not {deg}");
     }
     assert!(travels.nacelle_incidence.rad_min.abs() < 1e-12, "an aeroplane's nacelles");
-}
-
-// ------------------------------------------------------------------------------------- URDF
-
-/// Values of an attribute of the elements called `element`, in order.
-fn attributes<'a>(urdf: &'a str, element: &str, attribute: &str) -> Vec<&'a str> {
-    let (open, name) = (format!("<{element} "), format!("{attribute}=\""));
-    let value = |tag: &'a str| {
-        let tag = &tag[..tag.find('>').unwrap()];
-        let from = tag.find(&name).unwrap() + name.len();
-        &tag[from..from + tag[from..].find('"').unwrap()]
-    };
-    urdf.split(&open).skip(1).map(value).collect()
-}
-
-fn of(change: impl FnOnce(&mut Params)) -> String {
-    aircraft::urdf(&xv15().with(change))
-}
-
-#[test]
-fn a_rotor_of_19_ft_is_drawn_with_19_ft() {
-    let was = "radius_ft = { value = 12.5";
-    assert_eq!(XV15.matches(was).count(), 1);
-    let larger = aircraft::urdf(&read(&XV15.replace(was, "radius_ft = { value = 19.0")));
-    let discs = |urdf: &str, radius: &str| {
-        urdf.matches(&format!("<cylinder radius=\"{radius}\" length=\"0.04\"/>")).count()
-    };
-    assert_eq!((discs(&larger, "3.81"), discs(&larger, "5.7912")), (0, 2));
-    let today = aircraft::urdf(&xv15());
-    assert_eq!((discs(&today, "3.81"), discs(&today, "5.7912")), (2, 0));
-    // Six blades grow with it, nothing else.
-    let boxes = |urdf: &str| attributes(urdf, "box", "size").join(",");
-    assert_eq!(boxes(&larger).matches("5.2845 0.3556 0.05").count(), 6);
-    assert_eq!(boxes(&today), boxes(&larger).replace("5.2845 0.3556", "3.4766 0.3556"));
-}
-
-/// By hand: pivots at SL 300, BL 193, WL 100 in, the centre of gravity at SL 301.2, WL 81.65 in.
-#[test]
-fn joints_are_where_pivots_and_hubs_are() {
-    let urdf = aircraft::urdf(&xv15());
-    let joints = urdf.split("<joint ").skip(1).collect::<Vec<_>>().join("");
-    let origins = attributes(&joints, "origin", "xyz");
-    let hub = "0 0 1.4225";
-    assert_eq!(origins, ["0.0305 4.9022 0.4661", "0.0305 -4.9022 0.4661", hub, hub]);
-    assert_eq!(attributes(&joints, "limit", "lower"), ["-0.0873"; 2]);
-    assert_eq!(attributes(&joints, "limit", "upper"), ["1.5708"; 2]);
-    let shorter = of(|params| params.rotors.mast_length_m = 1.0);
-    assert_eq!(shorter.matches("<origin xyz=\"0 0 1\"/>").count(), 2);
-}
-
-#[test]
-fn frames_are_those_that_a_log_moves_and_no_name_breaks_the_text() {
-    let urdf = of(|params| params.name = "Tilt & \"Rotor\" <2>".into());
-    let links = ["base_link", "nacelle_left", "nacelle_right", "rotor_left", "rotor_right"];
-    assert_eq!(attributes(&urdf, "link", "name"), links);
-    assert_eq!(attributes(&urdf, "child", "link"), links[1..]);
-    assert_eq!(attributes(&urdf, "robot", "name"), ["tilt_rotor_2"]);
-    assert!(!urdf.contains("NaN") && !urdf.contains("inf"), "{urdf}");
-    for element in ["robot", "link", "joint", "visual", "geometry", "material"] {
-        let open = format!("<{element}");
-        let bodies = urdf.split(&open).skip(1);
-        let opened = bodies.filter(|rest| !rest[..=rest.find('>').unwrap()].ends_with("/>"));
-        assert_eq!(opened.count(), urdf.matches(&format!("</{element}>")).count());
-    }
 }

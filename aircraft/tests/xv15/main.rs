@@ -7,3 +7,4 @@ mod envelope;
 mod file;
 mod rotor;
 mod rotor_stand;
+mod urdf;
