@@ -277,6 +277,23 @@ mod tests {
     }
 
     #[test]
+    fn an_exact_flight_is_called_so_and_another_told_in_words() {
+        let of = |outcome| {
+            let words = "altered at tick 7".to_string();
+            let judgement = Judgement { outcome, first_bad_tick: None, words };
+            let (last, gathered) = (State::default(), Gathered::default());
+            let (log_lines, facts) = (Vec::new(), Vec::new());
+            let summary =
+                Summary { first_tick: 0, last, log_lines, gathered, digest: 0xf, facts, judgement };
+            summary.to_string()
+        };
+        assert!(of(Outcome::Exact).ends_with("digest         000000000000000f, exact"));
+        assert!(
+            of(Outcome::Altered).ends_with(", altered at tick 7; `tiltrotor verify` says more")
+        );
+    }
+
+    #[test]
     fn whoever_goes_on_from_the_ground_has_not_touched_down() {
         let (flying, mut standing) = (State::default(), State::default());
         standing.plant.weight_on_wheels = 1;

@@ -266,7 +266,7 @@ impl Flight {
 
 /// Gathers a flight while it is reflown.
 pub struct Gatherer {
-    flight: Flight,
+    pub(super) flight: Flight,
     heading_rad: Option<f64>,
 }
 

@@ -106,3 +106,41 @@ fn paler(Colour(red, green, blue): Colour) -> Colour {
     let paler = |part: u8| 255 - (255 - part) / 5 * 2;
     Colour(paler(red), paler(green), paler(blue))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use engine::Outputs;
+
+    use super::*;
+    use crate::figures::flight::Gatherer;
+
+    /// A flight eastwards at 10 m/s.
+    fn flight(seconds: u64) -> Flight {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let mut gatherer = Gatherer::new(Path::new("flight.mcap"), &xv15);
+        for tick in 1..=250 * seconds {
+            let mut outputs = Outputs { tick, ..Outputs::default() };
+            outputs.position_m.y = 0.04 * tick as f64;
+            gatherer.add(&outputs);
+        }
+        gatherer.flight
+    }
+
+    #[test]
+    fn posts_stand_apart_and_are_not_too_many() {
+        for seconds in [20, 100, 1000] {
+            let flight = flight(seconds);
+            let space = space(&[&flight]);
+            let posts = &space.flights[0].posts;
+            let apart_s = ((posts[1][0] - posts[0][0]) / 10.0).round();
+            let words = format!("every {apart_s:.0} s");
+            assert!(space.subtitle.contains(&words), "{}: {words}", space.subtitle);
+            let even = |two: &[[f64; 3]]| (two[1][0] - two[0][0] - 10.0 * apart_s).abs() < 1.0;
+            assert!(posts.windows(2).all(even) && apart_s >= POST_S, "{posts:?}");
+            let count = seconds as f64 / apart_s;
+            assert!((posts.len() as f64 - count).abs() < 1.5 && count <= POSTS_MAX, "{count}");
+        }
+    }
+}
