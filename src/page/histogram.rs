@@ -56,3 +56,18 @@ fn share(part: f64) -> String {
         percent => format!("{percent:.0} %"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_has_two_digits() {
+        let shares = [5e-5, 1e-4, 0.005, 0.0099, 0.01, 0.0123, 0.099, 0.1, 0.123, 1.0].map(share);
+        let told = [
+            "<0.01 %", "0.01 %", "0.50 %", "0.99 %", "1.0 %", "1.2 %", "9.9 %", "10 %", "12 %",
+            "100 %",
+        ];
+        assert_eq!(shares, told);
+    }
+}

@@ -223,6 +223,24 @@ mod tests {
     }
 
     #[test]
+    fn a_state_message_is_a_digest_and_then_a_state() {
+        let is_of_state = |fields: &str| {
+            let definition = format!("{fields}\n===\nMSG: t/S\nfloat64 x\nuint64 tick\n");
+            Layout::parse(&definition).expect("a layout").is_of_state()
+        };
+        assert!(is_of_state("uint64 digest\nt/S state"));
+        for other in [
+            "t/S state\nuint64 digest",
+            "int64 digest\nt/S state",
+            "uint64 crc\nt/S state",
+            "uint64 digest\nt/S plant",
+            "uint64 digest\nt/S state\nfloat64 more",
+        ] {
+            assert!(!is_of_state(other), "{other}");
+        }
+    }
+
+    #[test]
     fn a_schema_that_grows_without_end_is_refused_in_time() {
         let mut definition = String::from("t/T0 a\nt/T0 b\n");
         for i in 0..30 {
