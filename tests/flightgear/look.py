@@ -42,7 +42,8 @@ def main():
     ghost = pictures["ghost"] = pixels(f"{folder}/ghost.png")
     amber = count(ghost, lambda c: c[0] > 170 and c[2] < 60 and 0.5 * c[0] < c[1] < 0.78 * c[0])
     white = count(ghost, lambda c: min(c) > 190 and max(c) - min(c) < 25)
-    assert amber > 60 and white > 60, f"ghost: {amber} pixels of amber, {white} of white paint"
+    # The same view without the second one has none of amber.
+    assert amber > 30 and white > 60, f"ghost: {amber} pixels of amber, {white} of white paint"
     print(f"ghost: {amber} pixels of amber beside {white} of white paint")
     for (a, one), (b, other) in itertools.combinations(pictures.items(), 2):
         differ = sum(1 for x, y in zip(one, other) if not near(x, y, 12))
