@@ -1,9 +1,10 @@
 """Changes the code in small ways, one at a time, and sees whether the tests notice: mutants.py COUNT SEED COMMIT.
 
-The changes are drawn from what `cargo mutants --list` finds. Works in a checkout of its own of the commit,
-target/mutants/tree; what became of each change is appended to tests/mutants/COMMIT-SEED.jsonl, and a run that was
-stopped goes on there. To a change that was missed, a person adds `why`. Ends with 1 when less than 92 % of the
-changes that compile are noticed.
+The changes are drawn from what `cargo mutants --list` finds in COMMIT, and made to HEAD, whose tests they meet: a
+sample stays the same while tests are added. Works in a checkout of its own, target/mutants/tree; what became of each
+change stands in tests/mutants/COMMIT-SEED.jsonl, and a run that was stopped goes on there. Changes that were missed
+are tried once more with `--again`; what is noticed then keeps `first`: "missed". To one that stays missed a person
+adds `why`. Ends with 1 when less than 92 % of the changes that compile are noticed.
 """
 
 from __future__ import annotations
@@ -71,14 +72,29 @@ def failure(tree: Path, packages: list[str], only_build: bool = False) -> str | 
     return failed[1] if failed else (text.strip().splitlines() or ["no word"])[-1]
 
 
+def make(tree: Path, change: dict) -> bool:
+    """Makes the change to its file, or to the one of its crate where these lines are now."""
+    first = Path(change["file"])
+    sources = next(folder for folder in first.parents if folder.name == "src")
+    others = [file.relative_to(tree) for file in sorted((tree / sources).rglob("*.rs"))]
+    for file in [first, *others]:
+        command = ["patch", "--silent", "--force", "--fuzz=3", "--reject-file=-", str(file)]
+        trial = subprocess.run([*command, "--dry-run"], input=change["diff"], text=True, cwd=tree, capture_output=True)
+        if trial.returncode == 0:
+            return subprocess.run(command, input=change["diff"], text=True, cwd=tree, capture_output=True).returncode == 0
+    return False
+
+
 def fate(tree: Path, change: dict) -> dict:
-    """What becomes of a change: `unbuilt`, `noticed` and by which test, or `missed`."""
+    """What becomes of a change: `unbuilt`, `gone` (its lines are not there any more), `noticed` and by which test, or
+    `missed`."""
     own = ["-p", change["package"]]
     near = [word for name in FLIGHT_MODEL for word in ("-p", name)]
     stages = [own, *([near] if change["package"] in FLIGHT_MODEL else []), ["--workspace"]]
-    patched = subprocess.run(["patch", "--silent", change["file"]], input=change["diff"], text=True, cwd=tree)
     try:
-        if patched.returncode or failure(tree, own, only_build=True):
+        if not make(tree, change):
+            return {"fate": "gone"}
+        if failure(tree, own, only_build=True):
             return {"fate": "unbuilt"}
         by = next(filter(None, (failure(tree, stage) for stage in stages)), None)
         return {"fate": "noticed", "by": by} if by else {"fate": "missed"}
@@ -86,14 +102,29 @@ def fate(tree: Path, change: dict) -> dict:
         subprocess.run(["git", "checkout", "--quiet", "--", "."], cwd=tree, check=True)
 
 
+def drawn(tree: Path, count: int, seed: int, commit: str) -> list[dict]:
+    """The sample of the commit; kept beside the tree, for the listing takes a while."""
+    kept = WORK / f"{commit}-{seed}-{count}.json"
+    if not kept.exists():
+        subprocess.run(["git", "checkout", "--quiet", "--force", "--detach", commit], cwd=tree, check=True)
+        every = listed(tree)
+        print(f"{len(every)} changes in {commit}", flush=True)
+        kept.write_text(json.dumps(random.Random(seed).sample(every, min(count, len(every)))))
+    return json.loads(kept.read_text())
+
+
 def main() -> int:
-    count, seed = int(sys.argv[1]), int(sys.argv[2])
+    again = "--again" in sys.argv
+    words = [word for word in sys.argv[1:] if word != "--again"]
+    count, seed = int(words[0]), int(words[1])
     WORK.mkdir(parents=True, exist_ok=True)
-    head = subprocess.run(["git", "rev-parse", "--short", sys.argv[3]], capture_output=True, text=True, check=True)
-    commit, tree = head.stdout.strip(), WORK.resolve() / "tree"
+    commit, head = (
+        subprocess.run(["git", "rev-parse", "--short", of], capture_output=True, text=True, check=True).stdout.strip()
+        for of in (words[2], "HEAD")
+    )
+    tree = WORK.resolve() / "tree"
     if not tree.exists():
-        subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(tree), commit], check=True)
-    subprocess.run(["git", "checkout", "--quiet", "--force", "--detach", commit], cwd=tree, check=True)
+        subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(tree), head], check=True)
     os.environ.update(
         CARGO_TARGET_DIR=str(WORK.resolve() / "build"),
         CARGO_PROFILE_DEV_DEBUG="0",
@@ -102,37 +133,43 @@ def main() -> int:
         # libtest stops at the first failure, which it still calls unstable: for the tests alone, not for what compiles.
         CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER="env RUSTC_BOOTSTRAP=1",
     )
+    sample = drawn(tree, count, seed, commit)
+    subprocess.run(["git", "checkout", "--quiet", "--force", "--detach", head], cwd=tree, check=True)
     # One of the tests asks for every package's licence.
     subprocess.run(["cargo", "fetch", "--locked", "--quiet"], cwd=tree, check=True)
 
-    every = listed(tree)
-    drawn = random.Random(seed).sample(every, min(count, len(every)))
     BOOKS.mkdir(exist_ok=True)
     book = BOOKS / f"{commit}-{seed}.jsonl"
-    known = [json.loads(line) for line in book.read_text().splitlines()] if book.exists() else []
-    fates = {entry["name"]: entry["fate"] for entry in known}
-    reasons = {entry["name"]: entry.get("why", "no reason given") for entry in known}
-    print(f"{len(drawn)} of {len(every)} changes, seed {seed}, commit {commit}; {len(fates)} known", flush=True)
+    lines = book.read_text().splitlines() if book.exists() else []
+    fates = {entry["name"]: entry for entry in map(json.loads, lines)}
+    print(f"{len(sample)} changes, seed {seed}, of {commit}, with the tests of {head}; {len(fates)} known", flush=True)
     if not fates and (why := failure(tree, ["--workspace"])):
         sys.exit(f"the tests fail without any change: {why}")
-    for change in drawn:
+    for change in sample:
         name = change["name"]
-        if name in fates:
+        known = fates.get(name)
+        if known and not (again and known["fate"] == "missed"):
             continue
         begun = time.monotonic()
-        what = fate(tree, change)
-        fates[name] = what["fate"]
-        with book.open("a") as file:
-            print(json.dumps({"name": name, **what}), file=file)
+        what = {"name": name, **fate(tree, change)}
+        if known:
+            what |= {"first": "missed"} if what["fate"] == "noticed" else {"why": known.get("why")}
+        fates[name] = what
+        book.write_text("".join(json.dumps(entry) + "\n" for entry in fates.values()))
         print(f"{what['fate']:<8} {time.monotonic() - begun:4.0f} s  {name}: {what.get('by', '')}", flush=True)
 
-    fates = {change["name"]: fates[change["name"]] for change in drawn}
-    missed = sorted(name for name, what in fates.items() if what == "missed")
-    noticed = sum(what == "noticed" for what in fates.values())
+    fates = {change["name"]: fates[change["name"]] for change in sample}
+    missed = sorted(name for name, what in fates.items() if what["fate"] == "missed")
+    noticed = [what for what in fates.values() if what["fate"] == "noticed"]
+    since = sum(what.get("first") == "missed" for what in noticed)
     for name in missed:
-        print(f"missed: {name}: {reasons.get(name, 'no reason given')}")
-    part = noticed / max(noticed + len(missed), 1)
-    print(f"{noticed} of {noticed + len(missed)} changes that compile noticed, {100 * part:.0f} %, at least {100 * NOTICED_MIN:.0f} %")
+        print(f"missed: {name}: {fates[name].get('why') or 'no reason given'}")
+    compiled = len(noticed) + len(missed)
+    part = len(noticed) / max(compiled, 1)
+    print(
+        f"{len(noticed)} of {compiled} changes that compile noticed, {100 * part:.0f} %, at least {100 * NOTICED_MIN:.0f} %"
+        f"; {since} of them by tests that came after the sample"
+    )
     return 0 if part >= NOTICED_MIN else 1
 
 
