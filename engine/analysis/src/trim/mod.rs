@@ -35,7 +35,7 @@ mod settle;
 mod target;
 
 pub use columns::{COLUMNS, Column};
-pub use found::{Failure, Trim};
+pub use found::{Failure, Limit, Trim};
 use problem::{Problem, unlimited};
 pub use report::Report;
 pub use residual::{Equation, Residual};

@@ -150,8 +150,8 @@ impl Problem<'_> {
         let beyond = beyond(aircraft, self.torque_n_m_max, &state, &outputs, &report);
         let trim = Trim { state, outputs, report };
         match beyond {
-            Some((what, wanted_norm)) => {
-                Err(Failure::Beyond { what, wanted_norm, trim: Box::new(trim) })
+            Some((limit, wanted_norm)) => {
+                Err(Failure::Beyond { limit, wanted_norm, trim: Box::new(trim) })
             }
             None => Ok(trim),
         }

@@ -4,6 +4,8 @@ use engine::math::max;
 use engine::pair::Pair;
 use engine::{Aircraft, Outputs, State, engines};
 
+use super::found::Limit;
+
 /// A trim by its numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
@@ -93,26 +95,26 @@ pub(super) fn beyond(
     state: &State,
     outputs: &Outputs,
     report: &Report,
-) -> Option<(&'static str, f64)> {
+) -> Option<(Limit, f64)> {
     let pilot = &state.cockpit;
     let power_w_per_s = state.rate.engines.power_w_per_s;
     let engine_w = max(state.plant.engines.left.power_w, state.plant.engines.right.power_w);
     let lag_w = max(-power_w_per_s.left, -power_w_per_s.right) * aircraft.engines.lag_s;
     if lag_w > 1e-3 * aircraft.engines.rated_power_w {
-        return Some(("engine power", engine_w / max(engine_w - lag_w, 1.0)));
+        return Some((Limit::EnginePower, engine_w / max(engine_w - lag_w, 1.0)));
     }
     if -lag_w > 1e-3 * aircraft.engines.rated_power_w {
-        return Some(("idle power", engine_w / (engine_w - lag_w)));
+        return Some((Limit::IdlePower, engine_w / (engine_w - lag_w)));
     }
     // The engines give up to this in a hurry; what a mast may bear for long is for the pilot to mind.
     let torque_norm = engine_w / max(state.plant.rotor_speed_radps, 1.0) / torque_n_m_max;
     if torque_norm > engines::TORQUE_NORM_MAX {
-        return Some(("mast torque", torque_norm));
+        return Some((Limit::MastTorque, torque_norm));
     }
     for (what, norm) in [
-        ("longitudinal stick", pilot.stick_aft_norm),
-        ("lateral stick", pilot.stick_right_norm),
-        ("pedals", pilot.pedal_right_norm),
+        (Limit::LongitudinalStick, pilot.stick_aft_norm),
+        (Limit::LateralStick, pilot.stick_right_norm),
+        (Limit::Pedals, pilot.pedal_right_norm),
     ] {
         if norm.abs() > 1.0 {
             return Some((what, norm.abs()));
@@ -121,11 +123,11 @@ pub(super) fn beyond(
     let governor = &aircraft.fcc.governor;
     let low = governor.limit_rad(state.actuators.mast_tilt_rad.mean());
     let high = governor.collective_rad_max;
-    if report.collective_rad < low - 1e-9 || report.collective_rad > high + 1e-9 {
-        return Some((
-            "collective",
-            report.collective_rad / if report.collective_rad < low { low } else { high },
-        ));
+    if report.collective_rad < low - 1e-9 {
+        return Some((Limit::CollectiveLow, report.collective_rad / low));
     }
-    (outputs.landing_gear.main.right.push_n > 0.0).then_some(("height over the ground", 1.0))
+    if report.collective_rad > high + 1e-9 {
+        return Some((Limit::CollectiveHigh, report.collective_rad / high));
+    }
+    (outputs.landing_gear.main.right.push_n > 0.0).then_some((Limit::Ground, 1.0))
 }

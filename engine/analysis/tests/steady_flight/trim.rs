@@ -3,7 +3,7 @@
 use analysis::linearize::{INPUTS, linearize};
 use analysis::modes::modes;
 use analysis::start::state_at;
-use analysis::trim::{Failure, Power, Target, Trim, trim, trim_near};
+use analysis::trim::{Failure, Limit, Power, Target, Trim, trim, trim_near};
 use analysis::variable::{Rigid, Variable};
 use engine::frames::Vec3;
 use engine::inputs::{Failures, World};
@@ -149,7 +149,7 @@ fn what_the_engines_cannot_do_is_told_with_how_much_it_would_take() {
     let xv15 = xv15();
     let target = Target { altitude_m: 3300.0, ..flight(0.0, 0.0, 2) };
     let failure = trim(&xv15, &target).unwrap_err();
-    let Failure::Beyond { what: "engine power", wanted_norm, trim: beyond } = failure else {
+    let Failure::Beyond { limit: Limit::EnginePower, wanted_norm, trim: beyond } = failure else {
         panic!("{failure}");
     };
     assert!(wanted_norm > 1.0 && beyond.report.power_w > beyond.report.available_w);
@@ -157,6 +157,50 @@ fn what_the_engines_cannot_do_is_told_with_how_much_it_would_take() {
         trim(&xv15, &Target { airspeed_mps: -1.0, ..target }),
         Err(Failure::Senseless(_))
     ));
+}
+
+/// A steeper descent than idling engines let it fly, the lever against its upper stop where the masts bear no
+/// more, wheels in the ground, a sideslip that no pedal holds.
+#[test]
+fn what_cannot_be_flown_names_the_limit_and_another_way() {
+    let xv15 = xv15();
+    let descending =
+        |fpm: f64| Target { power: Power::Climb(-fpm * FPM), ..flight(90.0, 160.0, 0) };
+    let sitting = World::default().with_ground(-1.5);
+    for (target, limit, norm, words) in [
+        (
+            descending(1000.0),
+            Limit::IdlePower,
+            0.5..1.0,
+            "idle; ask for less descent, or more flap",
+        ),
+        (descending(3000.0), Limit::IdlePower, -1e9..0.0, "the rotors would drive the engines;"),
+        (
+            Target { power: Power::Lever(1.0), ..flight(90.0, 160.0, 0) },
+            Limit::MastTorque,
+            1.1..2.0,
+            "mast torque at 1",
+        ),
+        (
+            Target { world: sitting, ..flight(0.0, 0.0, 2) },
+            Limit::Ground,
+            1.0..1.1,
+            "the wheels touch the ground; ask for more height",
+        ),
+        (
+            Target { sideslip_rad: 45.0 * DEG, ..flight(0.0, 40.0, 2) },
+            Limit::Pedals,
+            1.0..1.2,
+            "pedals at 10",
+        ),
+    ] {
+        let failure = trim(&xv15, &target).unwrap_err();
+        let Failure::Beyond { limit: told, wanted_norm, .. } = &failure else {
+            panic!("{failure}")
+        };
+        assert!(*told == limit && norm.contains(wanted_norm), "{told:?} {wanted_norm}");
+        assert!(failure.to_string().contains(words), "{failure}");
+    }
 }
 
 /// A tick of the computer changes nothing of it, and the surfaces are where it wants them.
