@@ -197,6 +197,31 @@ fn flightgear_never_sees_what_is_not_a_number() {
 }
 
 #[test]
+fn numbers_of_every_kind_are_the_nearest_there_is_and_no_negative_zero() {
+    let mut bytes = [0xff; 8];
+    for kind in [Kind::Int, Kind::Float, Kind::Double] {
+        let bytes = &mut bytes[..kind.size()];
+        let mut written = |value: f64| {
+            kind.write(value, bytes);
+            kind.read(bytes)
+        };
+        for nought in [-0.0, 0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(written(nought).to_bits(), 0, "{kind:?} {nought}");
+        }
+        assert!((written(-3.0) + 3.0).abs() < 1e-12, "{kind:?}");
+    }
+    let mut int = |value: f64| {
+        Kind::Int.write(value, &mut bytes[..4]);
+        Kind::Int.read(&bytes[..4])
+    };
+    for (value, nearest) in
+        [(2.5, 3.0), (-2.4, -2.0), (1e12, 2_147_483_647.0), (-1e12, -2_147_483_648.0)]
+    {
+        assert!((int(value) - nearest).abs() < 1e-9, "{value}");
+    }
+}
+
+#[test]
 fn between_two_packets_angles_go_the_shorter_way() {
     assert!((between(350.0, 10.0, 0.25, 360.0) - 355.0).abs() < 1e-12);
     assert!((between(350.0, 10.0, 0.75, 360.0) - 5.0).abs() < 1e-12);

@@ -289,6 +289,24 @@ fn an_engine_that_stops_gets_cold_and_loses_its_pressures() {
     }
 }
 
+/// 400 °C at no power and 600 °C at all of it on a standard day, and with the air.
+#[test]
+fn an_engine_gets_hotter_with_its_power_and_the_air() {
+    let rated_w = xv15().engines.rated_power_w;
+    let mut outputs = Outputs::default();
+    outputs.engines.available_w = rated_w;
+    for (air_c, part, exhaust_c, oil_c) in
+        [(15.0, 1.0, 600.0, 85.0), (15.0, 0.5, 500.0, 72.5), (25.0, 0.5, 510.0, 82.5)]
+    {
+        outputs.air.temperature_k = air_c + 273.15;
+        outputs.engines.power_w = Pair { left: rated_w, right: part * rated_w };
+        let packet = sent(&outputs);
+        let degf = |c: f64| c * 9.0 / 5.0 + 32.0;
+        assert!(near(packet.egt_degf[1], degf(exhaust_c)), "{}", packet.egt_degf[1]);
+        assert!(near(packet.oil_temp_degf[1], degf(oil_c)), "{}", packet.oil_temp_degf[1]);
+    }
+}
+
 #[test]
 fn the_nose_wheel_casters_along_its_way_and_is_straight_in_the_air() {
     let mut outputs =
