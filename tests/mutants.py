@@ -73,16 +73,21 @@ def failure(tree: Path, packages: list[str], only_build: bool = False) -> str | 
 
 
 def make(tree: Path, change: dict) -> bool:
-    """Makes the change to its file, or to the one of its crate where these lines are now."""
-    first = Path(change["file"])
-    sources = next(folder for folder in first.parents if folder.name == "src")
-    others = [file.relative_to(tree) for file in sorted((tree / sources).rglob("*.rs"))]
-    for file in [first, *others]:
-        command = ["patch", "--silent", "--force", "--fuzz=3", "--reject-file=-", str(file)]
-        trial = subprocess.run([*command, "--dry-run"], input=change["diff"], text=True, cwd=tree, capture_output=True)
-        if trial.returncode == 0:
-            return subprocess.run(command, input=change["diff"], text=True, cwd=tree, capture_output=True).returncode == 0
-    return False
+    """Makes the change in its file, or, where that is not what it was, to the only such lines of its crate."""
+    file = tree / change["file"]
+    command = ["patch", "--silent", "--force", "--fuzz=3", "--reject-file=-", str(file)]
+    trial = subprocess.run([*command, "--dry-run"], input=change["diff"], text=True, capture_output=True)
+    if trial.returncode == 0:
+        return subprocess.run(command, input=change["diff"], text=True, capture_output=True).returncode == 0
+
+    hunk = change["diff"].splitlines()[2:]
+    old, new = ("".join(line[1:] + "\n" for line in hunk if line[:1] == sign) for sign in "-+")
+    sources = next(folder for folder in file.parents if folder.name == "src")
+    found = [file for file in sources.rglob("*.rs") if old in file.read_text()]
+    if len(found) != 1 or (text := found[0].read_text()).count(old) != 1:
+        return False
+    found[0].write_text(text.replace(old, new))
+    return True
 
 
 def fate(tree: Path, change: dict) -> dict:
