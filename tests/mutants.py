@@ -75,7 +75,8 @@ def failure(tree: Path, packages: list[str], only_build: bool = False) -> str | 
 def make(tree: Path, change: dict) -> bool:
     """Makes the change in its file, or, where that is not what it was, to the only such lines of its crate."""
     file = tree / change["file"]
-    command = ["patch", "--silent", "--force", "--fuzz=3", "--reject-file=-", str(file)]
+    command = ["patch", "--silent", "--force", "--fuzz=3", "--no-backup-if-mismatch", "--reject-file=-"]
+    command.append(str(file))
     trial = subprocess.run([*command, "--dry-run"], input=change["diff"], text=True, capture_output=True)
     if trial.returncode == 0:
         return subprocess.run(command, input=change["diff"], text=True, capture_output=True).returncode == 0
