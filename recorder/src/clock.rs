@@ -181,4 +181,15 @@ mod tests {
         }
         assert_eq!(awake.ns(), 2 * STEP_NS);
     }
+
+    #[test]
+    fn twice_as_fast_a_tick_is_due_after_half_the_time() {
+        // A tick is 4 ms of flight.
+        for (speed, step_ns) in
+            [(1.0, 4_000_000), (2.0, 2_000_000), (0.5, 8_000_000), (3.0, 1_333_333)]
+        {
+            let pace = Pace::at_speed(speed);
+            assert_eq!(pace.due_ns(10) - pace.due_ns(0), 10 * step_ns, "{speed}");
+        }
+    }
 }

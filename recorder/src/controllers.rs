@@ -57,3 +57,44 @@ impl Controllers {
         (self.phase.0 != before).then_some(self.phase)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Presses the button of its number; from the tenth tick on it is in its second phase.
+    struct Hand(u64);
+
+    impl Controller for Hand {
+        fn act(&mut self, _: &Outputs, context: &mut TickContext<'_>) {
+            let event = DeviceEvent { tick: context.tick, code: self.0, ..DeviceEvent::default() };
+            context.events.push(event);
+            *context.phase = if context.tick < 10 { (1, "first") } else { (2, "second") };
+            context.world.turbulence_mps += 1.0;
+            *context.done = context.tick == 11;
+        }
+
+        fn events_a_tick(&self) -> usize {
+            self.0 as usize
+        }
+    }
+
+    #[test]
+    fn all_act_in_their_order_and_a_phase_is_told_when_it_begins() {
+        let hands: Vec<Box<dyn Controller>> = vec![Box::new(Hand(7)), Box::new(Hand(3))];
+        let mut controllers = Controllers::new(hands, World::default());
+        assert_eq!(controllers.events_a_tick(), 10);
+        let mut told = Vec::new();
+        for tick in 0..12 {
+            assert!(!controllers.done, "{tick}");
+            let mut events = Vec::new();
+            told.extend(controllers.act(tick, &Outputs::default(), &mut events));
+            let pressed: Vec<_> = events.iter().map(|event| (event.tick, event.code)).collect();
+            assert_eq!(pressed, [(tick, 7), (tick, 3)]);
+        }
+        assert_eq!(told, [(1, "first"), (2, "second")]);
+        assert!(controllers.done);
+        // What one does to the world stays, and the next one goes on from it.
+        assert!((controllers.world.turbulence_mps - 24.0).abs() < 1e-9);
+    }
+}

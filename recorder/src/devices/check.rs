@@ -174,4 +174,29 @@ mod tests {
             { code = \"ABS_Z\", control = \"pedal_right\", side = \"lower\" }]";
         assert!(wrong(text).is_empty(), "{:?}", wrong(text));
     }
+
+    #[test]
+    fn what_a_button_cannot_mean_is_told_and_what_it_can_mean_is_not() {
+        let told = |words: &str| {
+            let map = wrong(&format!("[[device]]\nname = \"T\"\nbutton = [{{ {words} }}]"));
+            map.join("; ")
+        };
+        for (words, expected) in [
+            ("code = 288, control = \"marker\"", ""),
+            ("code = 288, control = \"trim_aft\", rate_norm_per_s = 0.1", ""),
+            ("code = 288, control = \"marker\", rate_norm_per_s = 0.1", "marker has no rate"),
+            ("code = 288, control = \"nacelle_aft\", mode = \"hold\"", ""),
+            ("code = 288, control = \"marker\", mode = \"latch\"", "marker acts once"),
+            ("code = 288, control = \"marker\", beyond_norm = 0.5", "`beyond_norm` is for axes"),
+            ("code = \"ABS_HAT0Y\", control = \"marker\"", "say from where on it is pressed"),
+            ("code = \"ABS_HAT0Y\", control = \"marker\", beyond_norm = -1.0", ""),
+            ("code = \"ABS_HAT0Y\", control = \"marker\", beyond_norm = 1.0", ""),
+            ("code = \"ABS_HAT0Y\", control = \"marker\", beyond_norm = 1.1", "from -1 to 1"),
+            ("code = \"ABS_HAT0Y\", control = \"marker\", beyond_norm = -1.1", "from -1 to 1"),
+        ] {
+            let told = told(words);
+            let right = if expected.is_empty() { told.is_empty() } else { told.contains(expected) };
+            assert!(right, "{words}: `{told}`, and not `{expected}`");
+        }
+    }
 }

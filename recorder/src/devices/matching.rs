@@ -144,4 +144,49 @@ mod tests {
             fits(&Device { kind: "keyboard".into(), ..Device::default() }, &receiver).is_some()
         );
     }
+
+    fn map(text: &str) -> Params {
+        aircraft::cockpit("map.toml", text).unwrap()
+    }
+
+    fn with(axes: &[u64], keys: &[u64]) -> Found {
+        let axis =
+            |&code| super::super::found::Axis { code, raw_min: 0, raw_max: 255, value: None };
+        Found { axes: axes.iter().map(axis).collect(), keys: keys.to_vec(), ..pad() }
+    }
+
+    /// A gamepad's touchpad and motion sensor have its name, too.
+    #[test]
+    fn a_device_that_has_nothing_of_what_the_map_uses_is_not_the_one_of_its_name() {
+        let map = map("[[device]]\nname = \"Wireless Controller\"\n\
+                       axis = [{ code = \"ABS_Y\", control = \"stick_aft\" }]\n\
+                       button = [{ code = 304, control = \"marker\" }]");
+        let number = |found: &Found| number_of(&map, found, |_| true);
+        assert_eq!(number(&pad()), None);
+        assert_eq!(number(&with(&[0, 2], &[305])), None);
+        assert_eq!(number(&with(&[1], &[])), Some(0));
+        assert_eq!(number(&with(&[], &[304])), Some(0));
+        // Where the map uses nothing of it, nothing can be missing.
+        let bare = Params { device: vec![named("Wireless Controller")] };
+        assert_eq!(number_of(&bare, &pad(), |_| true), Some(0));
+    }
+
+    #[test]
+    fn of_devices_of_the_map_that_fit_alike_the_one_with_most_of_what_there_is_is_taken() {
+        let y = "{ code = \"ABS_Y\", control = \"stick_aft\" }";
+        let x = "{ code = \"ABS_X\", control = \"stick_right\" }";
+        let device = |axes: &str| format!("[[device]]\nname = \"Wireless\"\naxis = [{axes}]\n");
+        let three = [y.to_string(), format!("{y}, {x}"), format!("{x}, {y}")];
+        let map = map(&three.map(|axes| device(&axes)).concat());
+        let but = |found: &Found, taken: &[usize]| {
+            number_of(&map, found, |number| !taken.contains(&number))
+        };
+        let both = with(&[0, 1], &[]);
+        assert_eq!(but(&both, &[]), Some(1));
+        assert_eq!(but(&both, &[1]), Some(2));
+        assert_eq!(but(&both, &[1, 2]), Some(0));
+        assert_eq!(but(&both, &[0, 1, 2]), None);
+        // Of an axis by itself, the one that asks for no other.
+        assert_eq!(but(&with(&[1], &[]), &[]), Some(0));
+    }
 }

@@ -396,3 +396,44 @@ fn bearing(seen: &Outputs, spot_m: Vec3<Ned>) -> (f64, f64) {
     let off = spot_m - seen.position_m;
     (engine::math::atan2(off.y, off.x), engine::math::sqrt(off.x * off.x + off.y * off.y))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_is_to_hover_keeps_to_the_spot_and_who_flies_on_lets_go_of_it() {
+        let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap();
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let mut pilot = Pilot::named("hover", &map, &xv15).unwrap();
+        // At the origin, heading east: what is north of it is on the left.
+        let mut seen = Outputs::default();
+        seen.euler.heading_rad = FRAC_PI_2;
+        let mut aim = |phase, [north_m, east_m]: [f64; 2]| {
+            pilot.order.spot_m = Some(Vec3::new(north_m, east_m, 0.0));
+            pilot.order.forward_mps = 8.0;
+            let aim = pilot.aim(phase, &seen);
+            (
+                [aim.forward_mps, aim.right_mps],
+                pilot.order.forward_mps,
+                pilot.order.spot_m.is_some(),
+            )
+        };
+        let near = |[ahead, beside]: [f64; 2], [x, y]: [f64; 2]| {
+            (ahead - x).abs() < 1e-9 && (beside - y).abs() < 1e-9
+        };
+        for phase in [Phase::Stop { height_m: None }, Phase::Approach { height_m: 9.0 }] {
+            // .12 m/s for every metre, and 4 m/s ahead and 3 m/s to the side at most.
+            let (mps, ordered_mps, keeps) = aim(phase, [5.0, 10.0]);
+            assert!(near(mps, [1.2, -0.6]), "{phase:?}: {mps:?}");
+            assert!(keeps && ordered_mps == 0.0, "{phase:?}");
+            let (mps, ..) = aim(phase, [-500.0, -500.0]);
+            assert!(near(mps, [-4.0, 3.0]), "{phase:?}: {mps:?}");
+        }
+        for phase in [Phase::Accelerate { height_m: 30.0 }, Phase::Hold { seconds: 1.0 }] {
+            let (mps, ordered_mps, keeps) = aim(phase, [5.0, 10.0]);
+            assert!(near(mps, [8.0, 0.0]), "{phase:?}: {mps:?}");
+            assert!(!keeps && ordered_mps > 0.0, "{phase:?}");
+        }
+    }
+}

@@ -452,3 +452,39 @@ impl ControlEffectiveness {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use engine::pair::Pair;
+
+    use super::*;
+
+    #[test]
+    fn the_lever_is_taken_back_by_half_of_the_torque_beyond_the_limit_a_second() {
+        let mut skill = Skill { lever_norm_max: 1.0, ..Skill::default() };
+        // Torque as a part of the limit: the mean of the masts', which differ by a tenth of it.
+        let mut a_while = |torque: f64, seconds: f64| {
+            let mut seen = Outputs::default();
+            seen.engines.torque_n_m =
+                Pair { left: 1000.0 * (torque + 0.05), right: 1000.0 * (torque - 0.05) };
+            for _ in 0..(seconds / HAND_S).round() as u32 {
+                skill.watch_torque(&seen, 1000.0);
+            }
+            skill.lever_norm_max
+        };
+        for (torque, seconds, lever_norm) in [
+            // A fifth too much for a second takes a tenth of the lever.
+            (1.2, 1.0, 0.9),
+            (1.2, 2.0, 0.7),
+            // Within the limit it is given again, a twentieth a second.
+            (0.9, 1.0, 0.75),
+            (1.0, 2.0, 0.85),
+            (0.5, 10.0, 1.0),
+            // However much it is, some lever is left.
+            (3.0, 10.0, 0.3),
+        ] {
+            let found_norm = a_while(torque, seconds);
+            assert!((found_norm - lever_norm).abs() < 1e-9, "{torque}: {found_norm}");
+        }
+    }
+}

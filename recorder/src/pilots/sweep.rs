@@ -208,4 +208,108 @@ mod tests {
         assert!(last > 9.0 && last < 15.0, "{last} rad/s");
         assert!(crossings(0.5, first_period_s() - 0.5) <= 1.0, "one period of the lowest");
     }
+
+    #[test]
+    fn the_frequency_stays_for_a_period_and_then_rises_by_the_same_factor_every_second() {
+        // One period at .2 rad/s.
+        let first_s = 10.0 * PI;
+        for (time_s, radps) in [
+            (0.0, 0.2),
+            (first_s, 0.2),
+            // In the middle of the rise the geometric mean of .2 and 15 rad/s.
+            (first_s + 0.5 * RISE_S, 3.0_f64.sqrt()),
+            (first_s + RISE_S, 15.0),
+            (length_s(), 15.0),
+        ] {
+            let found = frequency_radps(time_s);
+            assert!((found - radps).abs() < 1e-9, "{time_s} s: {found} rad/s");
+        }
+        assert!((length_s() - (first_s + 80.0 + 9.0)).abs() < 1e-9);
+    }
+
+    /// As a helicopter over a spot, heading north, or as an aeroplane at a dynamic pressure; nothing moves.
+    fn seen(airspeed_mps: f64) -> Outputs {
+        let mut seen = Outputs { airspeed_mps, ..Outputs::default() };
+        seen.balance.mass_kg = 6000.0;
+        seen.air.density_kg_per_m3 = 1.0;
+        seen.cockpit.stick_aft_norm = 0.1;
+        seen.cockpit.stick_right_norm = -0.2;
+        seen.cockpit.pedal_right_norm = 0.3;
+        seen.cockpit.collective_norm = 0.6;
+        seen.euler.pitch_rad = 0.05;
+        seen.position_m.z = -100.0;
+        seen
+    }
+
+    fn book() -> pilot::Params {
+        aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap().pilot
+    }
+
+    /// How far the hands are from where they were, in the order aft, right, pedal, lever.
+    fn moved(to: &Positions) -> [f64; 4] {
+        [
+            to.stick_aft_norm - 0.1,
+            to.stick_right_norm + 0.2,
+            to.pedal_right_norm - 0.3,
+            to.lever_norm - 0.6,
+        ]
+    }
+
+    fn assert_near(found: [f64; 4], expected: [f64; 4], what: &str) {
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-9, "{what}: {found} and not {expected}");
+        }
+    }
+
+    /// The hold's equations, each term by itself, with the gains that stand beside them.
+    #[test]
+    fn the_hold_over_a_spot_answers_every_way_off_with_its_own_control() {
+        let book = book();
+        let steady = Steady::of(&seen(0.0));
+        let off = |change: &dyn Fn(&mut Outputs)| {
+            let mut now = seen(0.0);
+            change(&mut now);
+            moved(&steady.positions(&now, None, &book))
+        };
+        assert_near(off(&|_| {}), [0.0; 4], "nothing is off");
+        assert_near(off(&|now| now.euler.pitch_rad -= 0.01), [1.2 * 0.01, 0.0, 0.0, 0.0], "θ");
+        assert_near(off(&|now| now.angular_rate_radps.y = 0.01), [-0.01, 0.0, 0.0, 0.0], "q");
+        assert_near(off(&|now| now.euler.roll_rad += 0.01), [0.0, -0.01, 0.0, 0.0], "φ");
+        assert_near(off(&|now| now.angular_rate_radps.x = 0.01), [0.0, -0.008, 0.0, 0.0], "p");
+        assert_near(off(&|now| now.euler.heading_rad = -0.01), [0.0, 0.0, 0.009, 0.0], "ψ");
+        assert_near(off(&|now| now.angular_rate_radps.z = 0.01), [0.0, 0.0, -0.015, 0.0], "r");
+        assert_near(off(&|now| now.position_m.z += 2.0), [0.0, 0.0, 0.0, 0.03], "2 m too low");
+        assert_near(off(&|now| now.velocity_mps.z = -0.5), [0.0, 0.0, 0.0, -0.01], "climb");
+        // Too fast ahead by 1 m/s: .02 rad of nose up. Too fast to the right: as much to the left.
+        assert_near(off(&|now| now.velocity_mps.x = 1.0), [1.2 * 0.02, 0.0, 0.0, 0.0], "u");
+        assert_near(off(&|now| now.velocity_mps.y = 1.0), [0.0, -0.02, 0.0, 0.0], "v");
+        assert_near(off(&|now| now.velocity_mps.y = -9.0), [0.0, 0.1, 0.0, 0.0], "at most");
+        // The lever serves the height as far as the masts are upright: half at 60 deg.
+        let tilted = off(&|now| {
+            now.actuators.mast_tilt_rad = engine::pair::Pair::both(PI / 3.0);
+            now.position_m.z += 2.0;
+        });
+        assert_near(tilted, [0.0, 0.0, 0.0, 0.015], "tilted masts");
+    }
+
+    #[test]
+    fn a_sweep_moves_its_own_control_and_less_over_a_spot_while_it_is_slow() {
+        let book = book();
+        // A quarter of the first period, the fading in being over: the sine is 1, at .2 rad/s.
+        let time_s = 2.5 * PI;
+        let axes = [Axis::Pitch, Axis::Roll, Axis::Yaw, Axis::Lever];
+        let whole = [STICK_NORM, STICK_NORM, PEDAL_NORM, LEVER_NORM];
+        // In flight the hand is half as heavy where the stick does half as much.
+        let fast_mps = (2.0 * book.half_stick_pa).sqrt();
+        assert!(fast_mps > book.flying_mps_min, "it is flying: {fast_mps} m/s");
+        for (speed_mps, parts) in [(0.0, [0.25 * 0.2; 4]), (fast_mps, [0.5, 0.5, 0.5, 1.0])] {
+            let now = seen(speed_mps);
+            for (place, axis) in axes.into_iter().enumerate() {
+                let mut expected = [0.0; 4];
+                expected[place] = whole[place] * parts[place];
+                let to = Steady::of(&now).positions(&now, Some((axis, time_s)), &book);
+                assert_near(moved(&to), expected, &format!("{axis:?} at {speed_mps} m/s"));
+            }
+        }
+    }
 }
