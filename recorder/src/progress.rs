@@ -264,3 +264,50 @@ impl Progress {
         self.waiting_down.store(down, Ordering::Relaxed);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_every_second_the_greatest_lateness_and_latency_are_shown_when_it_is_over() {
+        let mut shown = Shown::default();
+        let mut a_second = |late_ns: u64, latency_ns: u64| {
+            let before = (shown.late_ns, shown.latency_ns);
+            for tick in 0..250 {
+                assert_eq!((shown.late_ns, shown.latency_ns), before, "tick {tick} of the second");
+                shown.add(&TimingRecord {
+                    late_ns: if tick == 100 { late_ns } else { 10 },
+                    latency_ns: if tick == 20 { latency_ns } else { 0 },
+                    overrun: u64::from(tick == 7),
+                    ..TimingRecord::default()
+                });
+            }
+            (shown.late_ns, shown.latency_ns, shown.late_ns_max, shown.overruns)
+        };
+        assert_eq!(a_second(7000, 900), (7000, 900, 7000, 1));
+        // The next one begins anew, but for what is of the whole flight.
+        assert_eq!(a_second(3000, 0), (3000, 0, 7000, 2));
+        assert_eq!(a_second(9000, 1), (9000, 1, 9000, 3));
+    }
+
+    #[test]
+    fn what_happened_to_a_tick_is_shown_before_lateness_and_until_it_was_looked_at() {
+        let mut shown = Shown::default();
+        let late = |tick, late_ns| TimingRecord { tick, late_ns, ..TimingRecord::default() };
+        let mut add = |timing: TimingRecord| {
+            shown.add(&timing);
+            shown.timing.tick
+        };
+        assert_eq!(add(late(1, 500)), 1);
+        assert_eq!(add(late(2, 400)), 1, "less late");
+        assert_eq!(add(late(3, 500)), 3, "as late, and newer");
+        assert_eq!(add(TimingRecord { latency_ns: 1, ..late(4, 0) }), 4, "hardware moved");
+        assert_eq!(add(late(5, 900)), 4, "nothing happened to it");
+        assert_eq!(add(TimingRecord { slip_ns: 1, ..late(6, 10) }), 6, "a slip");
+        assert_eq!(add(TimingRecord { overrun: 1, ..late(7, 20) }), 7, "an overrun");
+        shown.of(&Outputs::default(), &World::default(), &Debrief::default());
+        shown.add(&late(8, 0));
+        assert_eq!(shown.timing.tick, 8, "after a look any tick is news");
+    }
+}
