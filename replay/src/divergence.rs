@@ -282,3 +282,79 @@ fn count(counts: &mut Vec<(Stage, u64)>, stage: Stage) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_input_is_told_by_the_controls_that_it_moves() {
+        // One switch works two controls, and a lever is a button as well towards its end.
+        let map = r#"
+            [[device]]
+            name = "stick"
+            axis = [{ code = 0, control = "stick_right" }, { code = 6, control = "collective" }]
+            button = [
+                { code = 0x120, control = "marker" },
+                { code = 0x121, control = "flap_up" },
+                { code = 0x121, control = "gear_toggle" },
+                { code = "ABS_THROTTLE", control = "flap_down", beyond_norm = 0.5 },
+            ]
+            [[device]]
+            name = "pedals"
+            axis = [{ code = 0, control = "pedal_right" }]
+        "#;
+        let map: Cockpit = toml::from_str(map).expect("a cockpit map");
+        let told = |device, kind: EventKind, code| {
+            moves(&map, &DeviceEvent { device, kind: kind as u64, code, ..DeviceEvent::default() })
+        };
+        assert_eq!(told(0, EventKind::Axis, 0), "stick right");
+        assert_eq!(told(1, EventKind::Axis, 0), "pedal right");
+        assert_eq!(told(0, EventKind::Button, 0x120), "marker");
+        assert_eq!(told(0, EventKind::Button, 0x121), "flap up, gear toggle");
+        assert_eq!(told(0, EventKind::Axis, 6), "collective, flap down");
+        // Axes and buttons are counted apart, and some have nothing to do.
+        for (device, kind, code) in [
+            (0, EventKind::Button, 0),
+            (0, EventKind::Axis, 0x120),
+            (0, EventKind::Axis, 1),
+            (2, EventKind::Axis, 0),
+            (0, EventKind::Connected, 0),
+            (0, EventKind::AxisPosition, 0),
+            (0, EventKind::ButtonPosition, 0x120),
+        ] {
+            assert_eq!(told(device, kind, code), "", "device {device}, {kind:?} {code}");
+        }
+        let unknown = DeviceEvent { kind: 99, ..DeviceEvent::default() };
+        assert_eq!(moves(&map, &unknown), "");
+    }
+
+    #[test]
+    fn of_the_last_inputs_the_later_one_is_told_and_of_one_tick_the_world() {
+        let inputs = |tick, north_mps| {
+            let mut inputs = InputsRecord { tick, ..InputsRecord::default() };
+            inputs.world.wind_mps.x = north_mps;
+            inputs
+        };
+        let event = |tick| DeviceEvent { tick, ..DeviceEvent::default() };
+        let map = Cockpit::default();
+        let mut last = LastInput::new().expect("recordable");
+        last.add(&[], &inputs(0, 0.0)).expect("read");
+        assert_eq!(last.told(&map), None, "a tick is no change");
+        last.add(&[event(1)], &inputs(1, 0.0)).expect("read");
+        let device = |tick| InputChange::Device { event: event(tick), moves: String::new() };
+        assert_eq!(last.told(&map), Some(device(1)));
+        last.add(&[event(2)], &inputs(2, 5.0)).expect("read");
+        let world = InputChange::World {
+            tick: 2,
+            path: "world.wind_mps.x".into(),
+            unit: "m/s".into(),
+            from: Value::F64(0.0),
+            to: Value::F64(5.0),
+        };
+        assert_eq!(last.told(&map), Some(world));
+        last.add(&[event(3)], &inputs(3, 5.0)).expect("read");
+        assert_eq!(last.told(&map), Some(device(3)));
+        assert_eq!(device(3).led_to_tick(), 4);
+    }
+}

@@ -96,3 +96,45 @@ fn no_altered_log_is_exact_up_to_its_end() {
     assert_eq!((facts.exact_tick(), facts.same_tick()), (0, 10));
     assert!(!facts.judge().words.contains("exact"), "{}", facts.judge());
 }
+
+#[test]
+fn what_a_flight_diverged_in_is_named_where_it_is_known() {
+    let words = |change: &dyn Fn(&mut Facts)| {
+        let mut facts = Facts { diverged: Some(5), ..sound() };
+        change(&mut facts);
+        facts.judge().words
+    };
+    // Tick 5 is 5 times 4 ms.
+    let at = "diverged at tick 5 (0.020 s): ";
+    let unnamed = words(&|_| ());
+    assert_eq!(unnamed, format!("{at}the reflown state is not the recorded one"));
+    let fuel = |facts: &mut Facts| facts.diverged_field = Some("plant.fuel_kg".into());
+    assert_eq!(words(&fuel), format!("{at}the reflown plant.fuel_kg is not the recorded one"));
+    // Of a compacted log's ticks between keyframes only the digest was kept.
+    for named in [false, true] {
+        let by_digest = words(&|facts| {
+            (facts.compacted, facts.altered) = (true, Some(5));
+            if named {
+                fuel(facts);
+            }
+        });
+        let kept = format!("{at}the reflown state has not the digest that was kept: ");
+        assert!(by_digest.starts_with(&kept), "{by_digest}");
+    }
+}
+
+#[test]
+fn what_was_changed_in_a_log_is_named_as_far_as_it_is_known() {
+    let words = |tick, irregular| Facts { altered: Some(tick), irregular, ..sound() }.judge().words;
+    let altered = |at: &str| format!("altered at {at}: the log was changed after the flight, ");
+    let at_start = words(0, None);
+    let files = "its aircraft, cockpit map, scenario or first state is not what it was flown with";
+    assert_eq!(at_start, altered("tick 0 (0.000 s)") + files);
+    let digest = "the digest does not follow from what was before";
+    assert_eq!(words(5, None), altered("tick 5 (0.020 s)") + digest);
+    let doubled = Irregular::Doubled { tick: 5 };
+    let once_more = "tick 5 (0.020 s) is there once more";
+    assert_eq!(words(5, Some(doubled)), altered("tick 5 (0.020 s)") + once_more);
+    // Where ticks are irregular only later, that is not what was found first.
+    assert_eq!(words(4, Some(doubled)), altered("tick 4 (0.016 s)") + digest);
+}
