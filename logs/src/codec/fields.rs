@@ -293,4 +293,18 @@ mod tests {
     fn a_short_number_is_refused() {
         assert!(fields(&3_u32).is_err());
     }
+
+    #[test]
+    fn whole_numbers_lie_as_many_apart_as_they_differ_and_kinds_are_not_compared() {
+        use Value::{F64, I64, U64};
+        assert_eq!(U64(3).ulps_to(U64(10)), Some(7));
+        assert_eq!(U64(0).ulps_to(U64(u64::MAX)), Some(u64::MAX));
+        assert_eq!(I64(-3).ulps_to(I64(4)), Some(7));
+        assert_eq!(I64(4).ulps_to(I64(-3)), Some(7));
+        assert_eq!(I64(i64::MIN).ulps_to(I64(i64::MAX)), Some(u64::MAX));
+        // Each of them is 1 to the bit of its own kind.
+        for (a, b) in [(U64(1), I64(1)), (F64(1.0), U64(1)), (I64(1), F64(1.0))] {
+            assert_eq!((a.ulps_to(b), b.ulps_to(a)), (None, None), "{a:?}, {b:?}");
+        }
+    }
 }

@@ -207,3 +207,65 @@ pub fn refuse_other_layout(
 pub fn broken(what: &str) -> LogError {
     LogError::Decode(format!("a compacted log that does not hold together: {what}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_and_definitions_come_back_in_order() {
+        let file = |name: &str, log_time, data: &[u8]| {
+            let (name, media_type) = (name.to_string(), "application/toml".to_string());
+            let header = AttachmentHeader { log_time, create_time: 3, name, media_type };
+            Record::Attachment(header, data.to_vec())
+        };
+        let schema = |id, text: &[u8]| {
+            let (name, encoding) = (format!("tiltrotor/msg/Type{id}"), "ros2msg".to_string());
+            Record::Schema(Schema { id, name, encoding, text: text.to_vec() })
+        };
+        let channel = |id, schema_id, facts: &[(&str, &str)]| {
+            let facts = facts.iter().map(|(key, value)| (key.to_string(), value.to_string()));
+            Record::Channel(Channel {
+                id,
+                schema_id,
+                topic: format!("/topic{id}"),
+                message_encoding: "cdr".into(),
+                metadata: facts.collect(),
+            })
+        };
+        let files = [file("aircraft.toml", 7, b"name = \"X\""), file("cockpit.toml", 0, b"")];
+        let definitions = [
+            schema(2, b"uint64 tick\n"),
+            channel(5, 2, &[("a", "b"), ("c", "")]),
+            schema(300, b""),
+            // The greatest number that there is.
+            channel(u16::MAX, 300, &[]),
+        ];
+        // What is no file and no definition is not among them, and files come first.
+        let others =
+            [Record::ChunkEnd, Record::Header { profile: "p".into(), library: "l".into() }];
+        let head = [&definitions[..], &others, &files].concat();
+        let bytes = encode(&head);
+        assert_eq!(decode(&bytes).unwrap(), [&files[..], &definitions].concat());
+        for cut in 0..bytes.len() {
+            assert!(decode(&bytes[..cut]).is_err(), "cut at {cut}");
+        }
+    }
+
+    #[test]
+    fn a_number_of_a_definition_that_is_none_is_refused() {
+        // No file and one definition, a message type of that number without name, encoding and text.
+        let definition = |kind: u64, number: u64| {
+            let mut bytes = vec![0, 1];
+            put(&mut bytes, kind);
+            put(&mut bytes, number);
+            bytes.extend([0; 3]);
+            decode(&bytes)
+        };
+        assert!(definition(0, 65_535).is_ok());
+        let refused = definition(0, 65_536).unwrap_err().to_string();
+        assert!(refused.ends_with("a channel's number is too large"), "{refused}");
+        let refused = definition(2, 1).unwrap_err().to_string();
+        assert!(refused.ends_with("a definition of an unknown kind"), "{refused}");
+    }
+}
