@@ -7,6 +7,7 @@
 use engine::frames::Vec3;
 use engine::pair::Pair;
 use engine::step::derivatives;
+use engine::table::axis::{Beta, RudderAngle};
 use engine::{Outputs, State};
 
 use crate::flying::{DEG, aloft, calm, parked, xv15};
@@ -91,4 +92,30 @@ fn a_fin_at_full_rudder_has_its_printed_side_force() {
     let arm_m = 570.0 * INCH_M - right.balance.cg_m.x;
     let turning_n_m = right.loads.vertical_stabilizers.sum().moment_n_m.z;
     near(turning_n_m, -arm_m * expected_n, "yawing, N m");
+}
+
+/// A fin above the centre of gravity meets air from the side to which the aircraft rolls, and .1·p·b/2U more of it
+/// from the sidewash of the wing.
+#[test]
+fn a_fin_is_pushed_against_the_roll_by_its_height_and_by_the_wing_s_sidewash() {
+    let (xv15, forward_mps, roll_radps) = (xv15(), 60.0, 0.2);
+    let fin = &xv15.vertical_stabilizers;
+    let outputs = seen(|state| {
+        state.actuators.mast_tilt_rad = Pair::both(90.0 * DEG);
+        state.plant.velocity_mps = Vec3::new(forward_mps, 0.0, 0.0);
+        state.plant.angular_rate_radps = Vec3::new(roll_radps, 0.0, 0.0);
+        state.plant.rotors = Pair::default();
+    });
+    // Waterline upwards, and the wing's span of 32.17 ft.
+    let above_m = fin.centre_m.z - outputs.balance.cg_m.z;
+    let by_height_rad = (roll_radps * above_m / forward_mps).atan();
+    let by_wing_rad = 0.1 * roll_radps * 32.17 * FOOT_M / (2.0 * forward_mps);
+    // Printed for air from the left; the table is odd.
+    let beta_rad = by_height_rad + by_wing_rad;
+    let coefficient = fin.side_force.at(Beta(-beta_rad), RudderAngle(0.0));
+    let pressure_pa = 0.5 * outputs.air.density_kg_per_m3 * forward_mps * forward_mps;
+    let expected_n = 2.0 * pressure_pa * fin.area_m2 * coefficient;
+    let side_n = outputs.loads.vertical_stabilizers.sum().force_n.y;
+    assert!(above_m > 1.0 && by_wing_rad > 0.2 * by_height_rad);
+    assert!((side_n / expected_n - 1.0).abs() < 0.02, "{side_n} N, by hand {expected_n} N");
 }
