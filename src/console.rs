@@ -74,3 +74,32 @@ pub fn finish() -> io::Result<()> {
         _ => Ok(()),
     }
 }
+
+#[cfg(all(test, feature = "sticks"))]
+mod tests {
+    use super::*;
+
+    fn failed_with(kind: io::ErrorKind) -> io::Result<()> {
+        unless_failed(|| Err(kind.into()))
+    }
+
+    /// One test: what went wrong is known to the whole program.
+    #[test]
+    fn after_the_first_error_nothing_is_written_and_only_a_closed_pipe_is_none() {
+        assert!(!has_failed());
+        // A signal came: it is tried again.
+        assert!(failed_with(io::ErrorKind::Interrupted).is_err());
+        assert!(!has_failed());
+
+        assert!(failed_with(io::ErrorKind::StorageFull).is_err());
+        assert!(has_failed());
+        let after = unless_failed(|| -> io::Result<()> { panic!("nothing more is written") });
+        assert_eq!(after.unwrap_err().kind(), io::ErrorKind::StorageFull);
+        assert_eq!(finish().unwrap_err().kind(), io::ErrorKind::StorageFull);
+        assert!(!has_failed(), "it was told");
+
+        assert!(failed_with(io::ErrorKind::BrokenPipe).is_err());
+        assert!(has_failed());
+        assert!(finish().is_ok());
+    }
+}

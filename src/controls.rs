@@ -96,3 +96,61 @@ fn how_pressed(button: &ButtonBinding) -> String {
     let inverted = if button.inverted { ", when it is not pressed" } else { "" };
     format!("{}{inverted}", beyond.unwrap_or_default())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_is_listed_with_what_it_does() {
+        let lines = keyboard();
+        assert_eq!(lines[0], "keyboard:");
+        // A line each: the actions, the failures by their digits, and what is no action.
+        assert_eq!(lines.len(), 1 + KeyAction::ALL.len() + Failures::FACTS.len() + 3);
+        for line in [
+            "  PageUp       Power lever up",
+            "  Left         Stick left while held",
+            "  1            fails or mends: left engine",
+            "  Q, Ctrl-C    ends the flight",
+        ] {
+            assert!(lines.iter().any(|known| known == line), "{line} in {lines:#?}");
+        }
+        let map = aircraft::cockpit("keyboard.toml", aircraft::KEYBOARD_MAP).unwrap();
+        assert_eq!(super::lines(&map, &[]), lines);
+    }
+
+    #[test]
+    fn an_axis_and_a_button_are_listed_with_how_they_move_their_control() {
+        let map = "[[device]]\nname = \"T\"\n\
+                   axis = [{ code = \"ABS_Y\", control = \"stick_aft\", inverted = true, dead_norm = 0.05 },\
+                   { code = \"ABS_Z\", control = \"collective\", dead_norm = 0.05, raw_min = 3, raw_max = 250 },\
+                   { code = \"ABS_RZ\", control = \"pedal_right\", side = \"upper\" },\
+                   { code = \"ABS_RX\", control = \"pedal_right\", side = \"lower\" },\
+                   { code = \"ABS_RY\", control = \"collective\", rate_norm_per_s = 0.3, dead_norm = 0.1 }]\n\
+                   button = [{ code = 288, control = \"marker\" },\
+                   { code = \"ABS_HAT0Y\", control = \"trim_aft\", beyond_norm = 0.5 },\
+                   { code = \"ABS_HAT0X\", control = \"trim_left\", beyond_norm = -0.5, inverted = true }]";
+        let map = aircraft::cockpit("map.toml", map).unwrap();
+        let listed = |names: &[String]| lines(&map, names);
+        assert_eq!(listed(&["Stick".into()])[0], "device 0, Stick:");
+        assert_eq!(
+            listed(&[]),
+            [
+                "device 0, T:",
+                "  ABS_Y          stick aft, inverted, dead zone 5 %",
+                // At the end of a lever's travel there is no middle to be dead.
+                "  ABS_Z          collective, 3 to 250 counts",
+                "  ABS_RZ         pedal right, upper half",
+                "  ABS_RX         pedal right, lower half",
+                "  ABS_RY         collective, at 30 % a second, dead zone 10 %",
+                "  BTN_TRIGGER    marker",
+                "  ABS_HAT0Y      trim aft, above 50 % of its half travel",
+                "  ABS_HAT0X      trim left, below -50 % of its half travel, when it is not pressed",
+            ]
+        );
+        assert_eq!(
+            moved(&map.device[0]),
+            "stick aft, collective, pedal right, pedal right, collective, marker, trim aft, trim left"
+        );
+    }
+}

@@ -219,3 +219,27 @@ fn csv(linear: &Linear, eigenvalues: &[Complex]) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Controls move in m and answers are in rad and m/s²: an inch of the control is .0254 m, a radian 57.29578
+    /// deg, and 1 g 9.80665 m/s².
+    #[test]
+    fn responses_are_told_of_an_inch_of_the_control_that_they_name() {
+        let rate = 57.295_779_513 * 0.0254;
+        for (response, (input, output, unit, factor)) in RESPONSES.iter().zip([
+            ("stick_aft_m", "pitch_rate_radps", "deg/s/in", rate),
+            ("stick_right_m", "roll_rate_radps", "deg/s/in", rate),
+            ("pedal_right_m", "yaw_rate_radps", "deg/s/in", rate),
+            ("lever_m", "specific_force_down_mps2", "g/in", 0.0254 / 9.80665),
+        ]) {
+            let Response { name, .. } = response;
+            assert_eq!(INPUTS[response.input], input, "{name}");
+            assert_eq!(OUTPUTS[response.output], output, "{name}");
+            assert_eq!(response.unit, unit, "{name}");
+            assert!((response.factor / factor - 1.0).abs() < 1e-9, "{name}: {}", response.factor);
+        }
+    }
+}

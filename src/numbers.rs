@@ -111,3 +111,40 @@ pub fn in_words(error: &clap::Error) -> Option<String> {
     let why = std::error::Error::source(error)?;
     Some(format!("{option} {value}: {why}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_have_their_limits() {
+        assert_eq!(processor("0"), Ok(0));
+        assert_eq!(processor("7"), Ok(7));
+        assert_eq!(processor("1023"), Ok(1023));
+        let words = "expected a whole number from 0 to 1023: a processor's number";
+        for wrong in ["-1", "1024", "1.0", "", "two"] {
+            assert_eq!(processor(wrong), Err(words.into()), "{wrong}");
+        }
+        assert_eq!(threads("1").map(NonZero::get), Ok(1));
+        assert_eq!(threads("1024").map(NonZero::get), Ok(1024));
+        assert!(threads("0").is_err() && threads("1025").is_err());
+        assert_eq!(port("1"), Ok(1));
+        // Three more after it are ports, too.
+        assert_eq!(port("65532"), Ok(u16::MAX - 3));
+        assert!(port("0").is_err() && port("65533").is_err());
+    }
+
+    #[test]
+    fn durations_are_a_tick_or_more_and_what_is_held_may_be_held_for_ever() {
+        let is = |found: Result<f64, String>, expected: f64| {
+            found.is_ok_and(|found| found.to_bits() == expected.to_bits())
+        };
+        assert!(is(duration_s("0.004"), 0.004) && is(duration_s("1e7"), 1e7));
+        assert!(duration_s("0.003").is_err() && duration_s("1.1e7").is_err());
+        assert!(is(hold_s("0"), 0.0) && is(hold_s("2.5"), 2.5));
+        assert!(is(hold_s("forever"), f64::INFINITY));
+        for wrong in ["-1", "inf", "1.1e7", "never"] {
+            assert_eq!(hold_s(wrong), Err("expected 0 to 10000000 s, or `forever`".into()));
+        }
+    }
+}

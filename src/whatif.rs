@@ -302,3 +302,29 @@ impl Apart {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_like_no_other_is_to_be_looked_up_and_one_like_another_is_suggested() {
+        let told = |error| with_a_way_out(error, Path::new("flight.mcap")).to_string();
+        let unknown = |near: &[&str]| EditError::UnknownKey {
+            key: "quux".into(),
+            near: near.iter().map(ToString::to_string).collect(),
+        };
+        let list = "`tiltrotor whatif flight.mcap --list` lists them all";
+        let lost = told(unknown(&[]));
+        assert!(lost.contains("unknown key quux") && lost.ends_with(list), "{lost}");
+        let meant = told(unknown(&["rotors.chord_ft"]));
+        assert!(meant.contains("rotors.chord_ft") && !meant.contains("--list"), "{meant}");
+        let table = told(EditError::Table { key: "rotors".into() });
+        assert!(table.starts_with("rotors is a table") && !table.contains("--list"), "{table}");
+    }
+
+    #[test]
+    fn a_new_log_stands_beside_its_source() {
+        assert_eq!(beside(Path::new("flown/day.mcap")), Path::new("flown/day-whatif.mcap"));
+    }
+}

@@ -110,4 +110,31 @@ mod tests {
             assert_eq!(moment(wrong), None, "{wrong}");
         }
     }
+
+    #[test]
+    fn every_option_names_a_part_and_none_is_the_whole() {
+        let none = WindowArgs::default;
+        let some = Some(When::Tick(0));
+        assert!(none().is_whole());
+        assert!(!WindowArgs { from: some, ..none() }.is_whole());
+        assert!(!WindowArgs { until: some, ..none() }.is_whole());
+        assert!(!WindowArgs { around: some, ..none() }.is_whole());
+    }
+
+    #[test]
+    fn a_part_around_a_moment_has_as_much_before_it_as_after_it() {
+        // Of ticks alone: no log is looked into. 10 s are 2500 ticks.
+        let of = |from, until, around| {
+            let tick = |tick: Option<u64>| tick.map(When::Tick);
+            let (from, until, around) = (tick(from), tick(until), tick(around));
+            WindowArgs { from, until, around, window: 10.0 }.of(Path::new("absent.mcap")).ok()
+        };
+        let part = |from_tick, until_tick, clamped| Some(Window { from_tick, until_tick, clamped });
+        assert_eq!(of(None, None, Some(9000)), part(Some(6500), Some(11_500), true));
+        assert_eq!(of(None, None, Some(1000)), part(Some(0), Some(3500), true));
+        assert_eq!(of(Some(5), None, None), part(Some(5), None, false));
+        assert_eq!(of(Some(5), Some(6), None), part(Some(5), Some(6), false));
+        assert_eq!(of(Some(5), Some(5), None), None);
+        assert_eq!(of(None, None, None), part(None, None, false));
+    }
 }

@@ -250,3 +250,67 @@ fn lines_typed() -> Receiver<()> {
     });
     told
 }
+
+#[cfg(test)]
+mod tests {
+    use recorder::devices::Axis;
+
+    use super::*;
+
+    #[test]
+    fn a_bar_is_filled_as_far_as_the_axis_has_come_through_its_range() {
+        // Forty characters.
+        for (raw_min, raw_max, value, filled) in [
+            (0, 200, Some(0), 0),
+            (0, 200, Some(50), 10),
+            (0, 200, Some(200), 40),
+            (-100, 100, Some(0), 20),
+            (-100, 100, Some(-50), 10),
+            (100, 300, Some(150), 10),
+            // Nobody has said where it stands: at its lower end.
+            (-100, 100, None, 0),
+            // Devices tell of values beyond the range that they tell.
+            (0, 200, Some(900), 40),
+            (0, 200, Some(-900), 0),
+            (5, 5, Some(5), 0),
+        ] {
+            let axes = vec![Axis { code: 1, raw_min, raw_max, value }];
+            let drawn = drawing(&Found { name: "T".into(), axes, ..Found::default() });
+            let (full, empty) = ("#".repeat(filled), "-".repeat(40 - filled));
+            let bar = format!("  ABS_Y          {full}{empty} {}", value.unwrap_or(raw_min));
+            assert_eq!(drawn, ["T".into(), bar, "  pressed        none".into()]);
+        }
+        let pressed = drawing(&Found { pressed: vec![288, 289], ..Found::default() });
+        assert_eq!(pressed[1], "  pressed        BTN_TRIGGER BTN_THUMB");
+    }
+
+    #[test]
+    fn what_moved_is_noted_and_told() {
+        let axes = vec![Axis { code: 1, raw_min: 0, raw_max: 200, value: None }];
+        let mut found = [Found { name: "T".into(), axes, ..Found::default() }];
+        let mut told = |kind: EventKind, device, code, value| {
+            let kind = kind as u64;
+            let words = note(
+                &mut found,
+                &DeviceEvent { kind, device, code, value, ..DeviceEvent::default() },
+            );
+            (words.unwrap_or_default(), found[0].axes[0].value, found[0].pressed.clone())
+        };
+        let is = |words: &str, value, pressed: &[u64]| (words.into(), value, pressed.to_vec());
+        assert_eq!(
+            told(EventKind::AxisPosition, 0, 1, 30),
+            is("T: ABS_Y stands at 30", Some(30), &[])
+        );
+        assert_eq!(told(EventKind::Axis, 0, 1, 40), is("T: ABS_Y 40", Some(40), &[]));
+        assert_eq!(told(EventKind::Axis, 0, 2, 50), is("", Some(40), &[]), "it has no such axis");
+        assert_eq!(told(EventKind::Axis, 1, 1, 50), is("", Some(40), &[]), "no such device");
+        let pressed = is("T: BTN_TRIGGER pressed", Some(40), &[288]);
+        assert_eq!(told(EventKind::Button, 0, 288, 1), pressed);
+        assert_eq!(told(EventKind::ButtonPosition, 0, 288, 1), pressed, "once");
+        let released = is("T: BTN_TRIGGER released", Some(40), &[]);
+        assert_eq!(told(EventKind::Button, 0, 288, 0), released);
+        assert_eq!(told(EventKind::Disconnected, 0, 0, 0).0, "T: unplugged");
+        assert_eq!(told(EventKind::Dropped, 0, 0, 0).0, "T: the kernel lost events");
+        assert_eq!(told(EventKind::Connected, 0, 0, 0).0, "");
+    }
+}

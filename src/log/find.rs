@@ -143,3 +143,50 @@ fn changes(tick: u64, was: &[Field], now: &[Field], found: &mut Vec<Found>) {
         found.push(Found { tick, kind: WORLD, words });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_button_is_told_by_what_it_does_and_by_its_code_where_it_does_nothing() {
+        let map = "[[device]]\nname = \"T\"\nbutton = [{ code = 288, control = \"marker\" }]";
+        let map = aircraft::cockpit("map.toml", map).unwrap();
+        let told = |kind: EventKind, device, code, value| {
+            let event = DeviceEvent {
+                tick: 9,
+                kind: kind as u64,
+                device,
+                code,
+                value,
+                ..Default::default()
+            };
+            button(&event, &map).map(|Found { tick, kind, words }| {
+                assert_eq!((tick, kind), (9, "button"));
+                words
+            })
+        };
+        let is = |words: &str| Some(words.to_string());
+        assert_eq!(told(EventKind::Button, 0, 288, 1), is("marker pressed"));
+        assert_eq!(told(EventKind::Button, 0, 288, 0), is("marker released"));
+        assert_eq!(told(EventKind::Button, 0, 289, 1), is("BTN_THUMB of device 0 pressed"));
+        assert_eq!(told(EventKind::Button, 3, 288, 0), is("BTN_TRIGGER of device 3 released"));
+        for kind in [EventKind::Axis, EventKind::ButtonPosition, EventKind::Disconnected] {
+            assert_eq!(told(kind, 0, 288, 1), None, "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_changed_are_told_and_others_are_not() {
+        let mut world = World::default();
+        let was = fields(&world).unwrap();
+        world.turbulence_mps = 1.5;
+        world.paused = 1;
+        let mut found = Vec::new();
+        changes(7, &was, &fields(&world).unwrap(), &mut found);
+        let mut words: Vec<_> = found.iter().map(|found| found.words.as_str()).collect();
+        words.sort_unstable();
+        assert_eq!(words, ["paused: 0 -> 1", "turbulence_mps: 0.0 -> 1.5"]);
+        assert!(found.iter().all(|found| found.tick == 7 && found.kind == "world"));
+    }
+}

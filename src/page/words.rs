@@ -55,7 +55,17 @@ fn what_was_flown(flown: &Afterwards) -> String {
     let (first, last) = flown.ticks;
     let height_m = rows.iter().map(|row| row.height_m).fold(0.0, max);
     let speed_mps = rows.iter().map(|row| row.airspeed_mps).fold(0.0, max);
-    let distance_m = flown.margins.distance_m;
+    let seconds = (last - first) as f64 * STEP_S;
+    in_a_sentence(&flown.aircraft, seconds, flown.margins.distance_m, (height_m, speed_mps))
+}
+
+/// What it is, how long and how far it flew, and how high and how fast at most.
+fn in_a_sentence(
+    aircraft: &str,
+    seconds: f64,
+    distance_m: f64,
+    (height_m, speed_mps): (f64, f64),
+) -> String {
     let distance = if distance_m < 1000.0 {
         format!("{distance_m:.0} m")
     } else {
@@ -63,10 +73,8 @@ fn what_was_flown(flown: &Afterwards) -> String {
         format!("{:.2} km ({miles:.2} nautical miles)", distance_m * 1e-3)
     };
     format!(
-        "{}: {:.1} s of flight, {distance} over the ground, up to {height_m:.0} m ({:.0} ft) above it and \
+        "{aircraft}: {seconds:.1} s of flight, {distance} over the ground, up to {height_m:.0} m ({:.0} ft) above it and \
          {:.0} kt true airspeed.",
-        flown.aircraft,
-        (last - first) as f64 * STEP_S,
         height_m / FOOT_M,
         knots(speed_mps),
     )
@@ -119,4 +127,27 @@ fn of(flown: &Afterwards, what: FlightEvent) -> impl Iterator<Item = &Happened> 
 /// A tick's time.
 pub fn s(tick: u64) -> String {
     format!("{:.3} s", tick as f64 * STEP_S)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_flown_is_told_in_the_units_of_both_worlds() {
+        // A foot is .3048 m, a nautical mile 1852 m, a knot one of these an hour.
+        let knots_mps = 1852.0 / 3600.0;
+        assert_eq!(
+            in_a_sentence("XV-15", 12.5, 999.0, (304.8, 100.0 * knots_mps)),
+            "XV-15: 12.5 s of flight, 999 m over the ground, up to 305 m (1000 ft) above it and 100 kt true \
+             airspeed."
+        );
+        assert_eq!(
+            in_a_sentence("XV-15", 0.0, 2.0 * 1852.0, (0.0, 0.0)),
+            "XV-15: 0.0 s of flight, 3.70 km (2.00 nautical miles) over the ground, up to 0 m (0 ft) above \
+             it and 0 kt true airspeed."
+        );
+        let kilometre = in_a_sentence("XV-15", 1.0, 1000.0, (0.0, 0.0));
+        assert!(kilometre.contains(" 1.00 km (0.54 nautical miles) "), "{kilometre}");
+    }
 }

@@ -265,3 +265,49 @@ fn warnings(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
     }
     frame.render_widget(Paragraph::new(lines).block(Block::bordered().title("warnings")), area);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_has_its_mark_at_the_part_of_the_travel_where_the_control_is() {
+        for (at_norm, low_norm, waits_at_norm, expected) in [
+            // Stick and pedals: half the travel to each side of the middle.
+            (-1.0, -1.0, None, "●────┼─────"),
+            (-0.6, -1.0, None, "──●──┼─────"),
+            (0.0, -1.0, None, "─────●─────"),
+            (0.2, -1.0, None, "─────┼●────"),
+            (1.0, -1.0, None, "─────┼────●"),
+            // The lever: from its end, and no middle.
+            (0.0, 0.0, None, "●──────────"),
+            (0.3, 0.0, None, "───●───────"),
+            (1.0, 0.0, None, "──────────●"),
+            // Never beyond its ends.
+            (1.5, 0.0, None, "──────────●"),
+            (-1.5, -1.0, None, "●────┼─────"),
+            // Where hardware waits; where the control is goes before it.
+            (-0.6, -1.0, Some(0.6), "──●──┼──○──"),
+            (0.3, 0.0, Some(0.5), "───●─○─────"),
+            (0.3, 0.0, Some(0.3), "───●───────"),
+        ] {
+            assert_eq!(bar(11, at_norm, low_norm, waits_at_norm), expected);
+        }
+    }
+
+    #[test]
+    fn the_wind_is_told_by_where_it_comes_from() {
+        let of = |north_mps: f64, east_mps: f64, turbulence_mps: f64| {
+            wind(&World {
+                wind_mps: engine::frames::Vec3::new(north_mps, east_mps, 0.0),
+                turbulence_mps,
+                ..World::default()
+            })
+        };
+        // 10 kt are 5.144 m/s.
+        assert_eq!(of(0.0, 0.0, 0.0), "wind calm");
+        assert_eq!(of(0.0, -5.144, 0.0), "wind 090° 10 kt");
+        assert_eq!(of(5.144, 0.0, 0.0), "wind 180° 10 kt");
+        assert_eq!(of(0.0, 10.289, 1.5), "wind 270° 20 kt, turbulence 1.5 m/s");
+    }
+}

@@ -35,6 +35,32 @@ fn colours() -> bool {
     std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
+/// What was told so far.
+#[derive(Default)]
+struct Heard {
+    /// The last of it, for the panel.
+    told: VecDeque<Told>,
+    /// What is more than a piece of news, for after the screen is gone.
+    grave: Vec<Told>,
+    /// A situation was saved in this flight.
+    saved: bool,
+}
+
+impl Heard {
+    fn take(&mut self, events: Vec<Told>) {
+        for event in events {
+            self.saved |= event.what == FlightEvent::SituationSaved && event.level == Level::Info;
+            if event.level != Level::Info {
+                self.grave.push(event.clone());
+            }
+            self.told.push_back(event);
+            if self.told.len() > TOLD_KEPT {
+                self.told.pop_front();
+            }
+        }
+    }
+}
+
 /// The panel of a flight.
 pub struct Panel {
     /// What it shows.
@@ -55,24 +81,13 @@ impl Panel {
     /// When there is no terminal.
     pub fn show(mut self, progress: &Progress, flying: impl Fn() -> bool) -> Result<Vec<Told>> {
         let mut screen = Screen::take().context("cannot draw the panel: no terminal")?;
-        let mut told = VecDeque::new();
-        let mut grave = Vec::new();
+        let mut heard = Heard::default();
         let mut page = Page::Flight;
         let colours = colours();
         let mut drawn: Option<Instant> = None;
         let mut shown = recorder::Shown::default();
-        let mut saved = false;
         while flying() {
-            for event in progress.told() {
-                saved |= event.what == FlightEvent::SituationSaved && event.level == Level::Info;
-                if event.level != Level::Info {
-                    grave.push(event.clone());
-                }
-                told.push_back(event);
-                if told.len() > TOLD_KEPT {
-                    told.pop_front();
-                }
-            }
+            heard.take(progress.told());
             shown = progress.shown().unwrap_or(shown);
             if drawn.is_none_or(|drawn| drawn.elapsed() >= PICTURE) {
                 drawn = Some(Instant::now());
@@ -81,7 +96,7 @@ impl Panel {
                     page,
                     shown: &shown,
                     now: &progress.now(),
-                    told: &told,
+                    told: &heard.told,
                     colours,
                 };
                 screen.terminal.draw(|frame| draw::draw(frame, &look))?;
@@ -106,7 +121,7 @@ impl Panel {
                         self.give(Order::Restart(restart?));
                     }
                 }
-                Some(Key::Flies(Order::Press(KeyAction::LoadSituation))) if !saved => {
+                Some(Key::Flies(Order::Press(KeyAction::LoadSituation))) if !heard.saved => {
                     if let Some(situation) = self.situation {
                         self.give(Order::Restart(Restart::Situation(situation)));
                     }
@@ -115,8 +130,8 @@ impl Panel {
                 None => {}
             }
         }
-        grave.extend(progress.told().into_iter().filter(|told| told.level != Level::Info));
-        Ok(grave)
+        heard.take(progress.told());
+        Ok(heard.grave)
     }
 
     /// Orders that find no room are lost: two hundred keys wait already.
@@ -124,5 +139,41 @@ impl Panel {
         if let Some(orders) = &mut self.orders {
             let _ = orders.give(order);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(tick: u64, what: FlightEvent, level: Level) -> Told {
+        Told { tick, what, level, words: String::new() }
+    }
+
+    #[test]
+    fn warnings_outlast_the_screen_and_the_panel_keeps_the_last_that_was_told() {
+        let mut heard = Heard::default();
+        heard.take(vec![
+            told(0, FlightEvent::Phase, Level::Info),
+            told(1, FlightEvent::Slip, Level::Warn),
+        ]);
+        heard.take(vec![told(2, FlightEvent::Impact, Level::Error)]);
+        heard.take((3..=50).map(|tick| told(tick, FlightEvent::Marker, Level::Info)).collect());
+        let ticks =
+            |of: &mut dyn Iterator<Item = &Told>| of.map(|told| told.tick).collect::<Vec<_>>();
+        assert_eq!(ticks(&mut heard.grave.iter()), [1, 2]);
+        // Fifty of fifty-one.
+        assert_eq!(ticks(&mut heard.told.iter()), (1..=50).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_situation_that_could_not_be_saved_is_none_to_load() {
+        let mut heard = Heard::default();
+        heard.take(vec![told(1, FlightEvent::SituationSaved, Level::Warn)]);
+        heard.take(vec![told(2, FlightEvent::Marker, Level::Info)]);
+        assert!(!heard.saved);
+        heard.take(vec![told(3, FlightEvent::SituationSaved, Level::Info)]);
+        heard.take(vec![told(4, FlightEvent::SituationSaved, Level::Warn)]);
+        assert!(heard.saved, "the first one is there");
     }
 }

@@ -84,3 +84,39 @@ fn restore_after_a_panic() {
         }));
     });
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::process::Command;
+
+    use super::*;
+
+    /// Set for the process that panics.
+    const PANICS: &str = "TILTROTOR_TEST_PANICS";
+
+    /// In a process of its own: the hook is the whole program's.
+    #[test]
+    fn a_panic_gives_the_screen_back_before_it_is_told() {
+        if std::env::var_os(PANICS).is_some() {
+            restore_after_a_panic();
+            // The next panel of the same program: once is enough.
+            restore_after_a_panic();
+            panic!("told on a screen");
+        }
+        let this = "panel::screen::tests::a_panic_gives_the_screen_back_before_it_is_told";
+        let program = std::env::current_exe().unwrap();
+        let panicked = Command::new(program)
+            .args([this, "--exact", "--nocapture"])
+            .env(PANICS, "1")
+            .output()
+            .unwrap();
+        assert!(!panicked.status.success());
+        let said = String::from_utf8_lossy(&panicked.stderr);
+        let told = said.find("told on a screen").expect("the panic's message");
+        // Out of the alternate screen, the cursor shown again (DEC's private modes 1049 and 25).
+        for given_back in ["\x1b[?1049l", "\x1b[?25h"] {
+            assert!(said.find(given_back).is_some_and(|at| at < told), "{said:?}");
+            assert_eq!(said.matches(given_back).count(), 1, "{said:?}");
+        }
+    }
+}
