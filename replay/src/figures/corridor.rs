@@ -166,3 +166,91 @@ impl Limits {
         middle.map(label).into_iter().chain(slow).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use engine::Outputs;
+    use engine::envelope::Corridor;
+    use engine::pair::Pair;
+    use engine::table::Table1;
+    use engine::units::{KNOT_MPS, radians};
+
+    use super::*;
+    use crate::figures::flight::Gatherer;
+
+    /// A flight by mast tilt in deg, calibrated airspeed in kt and height in m, through a corridor that is
+    /// easily said: slowest 0, 80, 120 kt at 0, 30, 90 deg, fastest 100, 160, 200 kt at 0, 60, 90 deg.
+    fn flight(flown: &[(f64, f64, f64)]) -> Flight {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let mut gatherer = Gatherer::new(Path::new("flight.mcap"), &xv15);
+        for (tick, &(tilt_deg, kt, height_above_ground_m)) in (5..).step_by(5).zip(flown) {
+            let calibrated_airspeed_mps = kt * KNOT_MPS;
+            let mut outputs = Outputs {
+                tick,
+                calibrated_airspeed_mps,
+                height_above_ground_m,
+                ..Outputs::default()
+            };
+            let tilt_rad = radians(tilt_deg);
+            outputs.actuators.mast_tilt_rad = Pair { left: tilt_rad, right: tilt_rad };
+            gatherer.add(&outputs);
+        }
+        let mps = |kt: [f64; 3]| kt.map(|kt| kt * KNOT_MPS).to_vec();
+        let tilts = |deg: [f64; 3]| deg.map(radians).to_vec();
+        gatherer.flight.corridor = Corridor {
+            calibrated_airspeed_mps_min: Table1::new(
+                tilts([0.0, 30.0, 90.0]),
+                mps([0.0, 80.0, 120.0]),
+            ),
+            calibrated_airspeed_mps_max: Table1::new(
+                tilts([0.0, 60.0, 90.0]),
+                mps([100.0, 160.0, 200.0]),
+            ),
+        };
+        gatherer.flight.mast_tilt_rad = (radians(-5.0), radians(90.0));
+        gatherer.flight
+    }
+
+    fn assert_near(points: &[[f64; 2]], expected: &[[f64; 2]]) {
+        let far = |(a, b): (&[f64; 2], &[f64; 2])| {
+            (a[0] - b[0]).abs() > 1e-9 || (a[1] - b[1]).abs() > 1e-9
+        };
+        let apart = points.iter().zip(expected).any(far) || points.len() != expected.len();
+        assert!(!apart, "{points:?} and not {expected:?}");
+    }
+
+    #[test]
+    fn the_limits_go_from_stop_to_stop_with_a_point_at_every_corner() {
+        let limits = Limits::of(&flight(&[]));
+        // Nacelle incidence is 90 deg less the mast tilt; a limit keeps its end beyond its table.
+        let incidences = [95.0, 90.0, 60.0, 30.0, 0.0];
+        let at = |kt: [f64; 5]| [0, 1, 2, 3, 4].map(|i| [kt[i], incidences[i]]);
+        let (slowest, fastest) =
+            (at([0.0, 0.0, 80.0, 100.0, 120.0]), at([100.0, 100.0, 130.0, 160.0, 200.0]));
+        assert_near(&limits.slowest, &slowest);
+        assert_near(&limits.fastest, &fastest);
+        // The inside lies between them: up the one and down the other.
+        let mut edge = fastest.to_vec();
+        edge.reverse();
+        assert_near(&limits.edge(), &[&slowest[..], &edge].concat());
+        // A limit of 0 kt is none.
+        let drawn = &limits.curves()[0].points;
+        assert!(drawn[..2].iter().all(|point| point[0].is_nan()), "{drawn:?}");
+        assert_near(&drawn[2..], &slowest[2..]);
+    }
+
+    #[test]
+    fn the_least_margin_is_that_of_the_nearer_limit_in_the_air() {
+        // 80 to 130 kt at 30 deg, 100 to 160 kt at 60 deg.
+        let within = flight(&[(30.0, 95.0, 100.0), (60.0, 150.0, 100.0), (60.0, 300.0, 0.0)]);
+        let least = Least::of(&within).expect("it flew");
+        assert_near(&[least.at], &[[150.0, 30.0]]);
+        assert_eq!(least.words("least margin"), "least margin: 10.0 kt at 0.0 s");
+        let outside = flight(&[(30.0, 95.0, 100.0), (60.0, 160.0, 100.0), (30.0, 72.5, 100.0)]);
+        let words = Least::of(&outside).expect("it flew").words("least margin");
+        assert_eq!(words, "least margin: −7.5 kt at 0.1 s (outside)");
+        assert!(Least::of(&flight(&[(30.0, 20.0, 0.0)])).is_none(), "it stayed on the ground");
+    }
+}

@@ -385,4 +385,84 @@ mod tests {
         told.words = "lift-off, climbing 0.03 m/s at 0.01 m/s over the ground".into();
         assert_eq!(told.short(), "lift-off");
     }
+
+    /// Rows at these ticks, with the nacelles at an incidence in deg.
+    fn rows(ticks: &[(u64, f64)]) -> Vec<Row> {
+        let row = |&(tick, incidence_deg): &(u64, f64)| {
+            let mut outputs = Outputs { tick, ..Outputs::default() };
+            let tilt_rad = engine::units::radians(90.0 - incidence_deg);
+            outputs.actuators.mast_tilt_rad = Pair { left: tilt_rad, right: tilt_rad };
+            Row::of(&outputs, 0.0)
+        };
+        ticks.iter().map(row).collect()
+    }
+
+    /// A tick takes 4 ms, and a row is one of five: 20 ms.
+    #[test]
+    fn a_flight_begins_a_row_before_its_first_row_and_ends_with_its_last() {
+        let range_s = |ticks: &[(u64, f64)]| Flight { rows: rows(ticks), ..flight() }.range_s();
+        let near = |(a, b): (f64, f64), from_s: f64, to_s: f64| {
+            assert!((a - from_s).abs() < 1e-9 && (b - to_s).abs() < 1e-9, "{a} to {b} s");
+        };
+        near(range_s(&[(5, 90.0), (10, 90.0), (15, 90.0)]), 0.0, 0.06);
+        near(range_s(&[(250, 90.0), (500, 90.0)]), 0.98, 2.0);
+        // None begins before time does.
+        near(range_s(&[(0, 90.0)]), 0.0, 0.0);
+        near(range_s(&[]), 0.0, 0.0);
+    }
+
+    #[test]
+    fn the_row_of_a_tick_is_its_own_or_the_next_one() {
+        let rows = rows(&[(5, 90.0), (10, 90.0), (15, 90.0)]);
+        let flight = Flight { rows, ..flight() };
+        let tick_at = |tick| (flight.row_at(tick).expect("a row").time_s / STEP_S).round() as u64;
+        assert_eq!([0, 5, 6, 10, 11, 15, 99].map(tick_at), [5, 5, 10, 10, 15, 15, 15]);
+        assert!(self::flight().row_at(5).is_none(), "without rows there is none");
+    }
+
+    #[test]
+    fn a_stretch_of_a_configuration_goes_up_to_where_the_next_begins() {
+        use Configuration::{Aeroplane, Converting, Helicopter};
+        // A helicopter above 85 deg, an aeroplane on the down stop.
+        let ticks = [(5, 90.0), (10, 85.5), (15, 84.5), (20, 1.5), (25, 0.5), (30, 0.0)];
+        let flight = Flight { rows: rows(&ticks), ..flight() };
+        let expected = [(Helicopter, 0, 2), (Converting, 2, 4), (Aeroplane, 4, 5)];
+        assert_eq!(flight.stretches(), expected);
+        assert!(self::flight().stretches().is_empty());
+    }
+
+    #[test]
+    fn a_flight_is_in_real_time_when_anything_waited_for_the_clock() {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let mut gatherer = Gatherer::new(Path::new("flight.mcap"), &xv15);
+        let timing = |tick, late_ns| TimingRecord {
+            tick,
+            late_ns,
+            sent_ns: 300,
+            step_ns: 20,
+            latency_ns: 7,
+            ..TimingRecord::default()
+        };
+        gatherer.time(&timing(0, 0));
+        assert!(!gatherer.flight.in_real_time, "flown as fast as it goes");
+        gatherer.time(&timing(1, 1));
+        gatherer.time(&timing(2, 0));
+        assert!(gatherer.flight.in_real_time, "one tick was waited for");
+        gatherer.time(&timing(3, u64::MAX));
+        // From when it was due: lateness counts.
+        let time = |tick, sent_ns| StepTime { tick, sent_ns, step_ns: 20, latency_ns: 7 };
+        let expected = [time(0, 300), time(1, 301), time(2, 300), time(3, u64::MAX)];
+        assert_eq!(gatherer.flight.times, expected);
+    }
+
+    #[test]
+    fn a_crash_is_an_impact_that_nothing_is_meant_to_stand() {
+        let crash_s = |happened: Vec<Happened>| Flight { happened, ..flight() }.crash_s();
+        let hard = || happened(100, FlightEvent::Impact, Level::Warn);
+        assert_eq!(crash_s(vec![hard(), happened(150, FlightEvent::Fuel, Level::Error)]), None);
+        let crashed = happened(250, FlightEvent::Impact, Level::Error);
+        let again = happened(300, FlightEvent::Impact, Level::Error);
+        let at_s = crash_s(vec![hard(), crashed, again]).expect("a crash");
+        assert!((at_s - 1.0).abs() < 1e-9, "{at_s} s");
+    }
 }

@@ -125,3 +125,78 @@ fn time_s(time: &StepTime) -> f64 {
 fn ms(ns: u64) -> f64 {
     max(ns as f64 * 1e-6, LEAST_MS)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::figures::flight::Gatherer;
+
+    /// A flight with these times of its ticks.
+    fn flight(times: Vec<StepTime>) -> Flight {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let flight = Gatherer::new(Path::new("flight.mcap"), &xv15).flight;
+        Flight { times, in_real_time: true, ..flight }
+    }
+
+    /// Three ticks for each column of the figure, sent after 2, 9 and 1 ms, each step of 20 µs.
+    fn times() -> Vec<StepTime> {
+        let sent_ns = [2_000_000, 9_000_000, 1_000_000].into_iter().cycle();
+        let time = |(tick, sent_ns)| StepTime { tick, sent_ns, step_ns: 20_000, latency_ns: 0 };
+        (0..3 * COLUMNS as u64).zip(sent_ns).map(time).collect()
+    }
+
+    #[test]
+    fn a_column_of_ticks_is_drawn_by_its_median_and_its_longest() {
+        let stack = stack(&[&flight(times())]).expect("drawn");
+        let [sent, steps] = &stack.panels[..] else { panic!("no input of hardware, no panel") };
+        let near = |a: [f64; 2], b: [f64; 2]| {
+            assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9, "{a:?}, {b:?}");
+        };
+        let [band, medians] = &sent.curves[..] else { panic!("a band and a line") };
+        assert_eq!((medians.points.len(), band.points.len()), (COLUMNS, 2 * COLUMNS));
+        for (column, (median, edges)) in
+            medians.points.iter().zip(band.points.as_chunks::<2>().0).enumerate()
+        {
+            // At the middle one of three ticks of 4 ms.
+            let at_s = 0.012 * column as f64 + 0.004;
+            near(*median, [at_s, 2.0]);
+            near(edges[0], [at_s, 9.0]);
+            near(edges[1], [at_s, 2.0]);
+        }
+        near(steps.curves[1].points[0], [0.004, 0.02]);
+    }
+
+    #[test]
+    fn latencies_of_microseconds_and_of_a_tenth_of_a_second_are_read_off_one_axis() {
+        let mut stamped = times();
+        (stamped[500].latency_ns, stamped[501].latency_ns) = (4_000_000, 200);
+        let panels = stack(&[&flight(stamped)]).expect("drawn").panels;
+        let [sent, hands, steps] = &panels[..] else { panic!("three panels") };
+        assert!(panels.iter().all(|panel| panel.logarithmic));
+        // Each input is a dot, and nothing is shorter than a microsecond on that axis.
+        let dots = &hands.curves[0].points;
+        let [a, b] = dots[..] else { panic!("{dots:?}") };
+        assert!((a[0] - 2.0).abs() < 1e-9 && (a[1] - 4.0).abs() < 1e-9, "{a:?}");
+        assert!((b[0] - 2.004).abs() < 1e-9 && (b[1] - 1e-3).abs() < 1e-12, "{b:?}");
+        let guides =
+            |panel: &Panel| panel.guides.iter().map(|it| (it.at, it.to)).collect::<Vec<_>>();
+        for panel in [sent, hands] {
+            assert_eq!(guides(panel), [(2.5, Some(5.0)), (150.0, None)], "{}", panel.title);
+        }
+        assert!(matches!(guides(steps)[..], [(at, None)] if (at - 4.0).abs() < 1e-9));
+        assert!(steps.height < sent.height && sent.height <= hands.height);
+    }
+
+    #[test]
+    fn what_nobody_waited_for_is_said_to_be_and_a_log_without_times_is_not_drawn() {
+        let timed = flight(times());
+        let fast = Flight { in_real_time: false, ..flight(times()) };
+        let subtitle = |flights: &[&Flight]| stack(flights).expect("drawn").subtitle;
+        assert!(!subtitle(&[&timed]).contains("nothing was due"));
+        assert!(subtitle(&[&fast]).contains("nothing was due"));
+        assert!(subtitle(&[&timed, &fast]).contains("nothing was due"));
+        assert!(stack(&[&timed, &flight(Vec::new())]).is_err());
+    }
+}

@@ -289,7 +289,14 @@ fn unit(title: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
+    use engine::Outputs;
+    use engine::math::PI;
+    use engine::pair::Pair;
+
     use super::*;
+    use crate::figures::flight::Gatherer;
 
     #[test]
     fn units_are_told_from_titles() {
@@ -304,5 +311,124 @@ mod tests {
     #[test]
     fn headings_differ_by_the_shorter_way_round() {
         assert!((around(359.0) + 1.0).abs() < 1e-9 && (around(-350.0) - 10.0).abs() < 1e-9);
+    }
+
+    /// A flight of one row, 20 ms after its begin.
+    fn flight(name: &str, outputs: Outputs) -> Flight {
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        let mut gatherer = Gatherer::new(Path::new(name), &xv15);
+        gatherer.add(&Outputs { tick: 5, ..outputs });
+        gatherer.flight
+    }
+
+    /// Every quantity in SI, as the definitions of their units have it: a knot is 1852 m an hour, 1000 ft
+    /// a minute are 304.8 m in 60 s, 30 deg are π/6 and 600 rpm are ten turns of 2π a second.
+    fn outputs() -> Outputs {
+        let kt = |kt: f64| kt * 1852.0 / 3600.0;
+        let mut o = Outputs {
+            height_above_ground_m: 30.0,
+            calibrated_airspeed_mps: kt(100.0),
+            airspeed_mps: kt(120.0),
+            load_factor: 1.5,
+            rotor_speed_radps: 20.0 * PI,
+            ..Outputs::default()
+        };
+        o.velocity_mps.z = -304.8 / 60.0;
+        (o.euler.roll_rad, o.euler.pitch_rad, o.euler.heading_rad) =
+            (-PI / 6.0, PI / 18.0, PI / 2.0);
+        (o.cockpit.stick_aft_norm, o.cockpit.stick_right_norm) = (0.25, -0.5);
+        (o.cockpit.pedal_right_norm, o.cockpit.collective_norm) = (0.1, 0.7);
+        (o.actuators.elevator_rad, o.actuators.flap_rad) = (-PI / 36.0, PI / 9.0);
+        o.actuators.mast_tilt_rad = Pair { left: PI / 6.0, right: PI / 6.0 };
+        o.actuators.collective_rad = Pair { left: PI / 18.0, right: PI / 12.0 };
+        o.engines.power_w = Pair { left: 500e3, right: 400e3 };
+        (o.rotors.left.thrust_n, o.rotors.right.thrust_n) = (30e3, 31e3);
+        (o.rotors.left.torque_n_m, o.rotors.right.torque_n_m) = (12e3, 13e3);
+        (o.rotors.left.tilt_aft_rad, o.rotors.right.tilt_aft_rad) = (PI / 90.0, -PI / 60.0);
+        o
+    }
+
+    #[test]
+    fn every_quantity_is_drawn_in_the_unit_of_its_title() {
+        let expected: [(Figure, &[(&str, &[f64])]); 4] = [
+            (
+                Figure::Profile,
+                &[
+                    // 30 m over 0.3048 m.
+                    (
+                        "Height of the centre of gravity above the ground, m; greatest 98 ft",
+                        &[30.0],
+                    ),
+                    ("Airspeed, kt", &[100.0, 120.0]),
+                    ("Climb, ft/min", &[1000.0]),
+                    ("Nacelle incidence, deg (90 helicopter, 0 aeroplane)", &[60.0]),
+                    ("Load factor, g", &[1.5]),
+                    ("Engine power, kW", &[500.0, 400.0]),
+                ],
+            ),
+            (
+                Figure::Euler,
+                &[
+                    ("Roll φ, deg (right wing down positive)", &[-30.0]),
+                    ("Pitch θ, deg (nose up positive)", &[10.0]),
+                    ("Heading ψ, deg (from north to the east, continued beyond a turn)", &[90.0]),
+                ],
+            ),
+            (
+                Figure::Controls,
+                &[
+                    ("Longitudinal stick, % of travel (aft positive)", &[25.0]),
+                    ("Lateral stick, % of travel (right positive)", &[-50.0]),
+                    ("Pedals, % of travel (right positive)", &[10.0]),
+                    ("Power lever, % of travel (up positive)", &[70.0]),
+                    ("Collective pitch at ¾ radius, deg", &[10.0, 15.0]),
+                    ("Elevator, deg (trailing edge down positive)", &[-5.0]),
+                    ("Flaps, deg", &[20.0]),
+                ],
+            ),
+            (
+                Figure::Rotors,
+                &[
+                    ("Thrust, kN", &[30.0, 31.0]),
+                    ("Torque at the mast, kN·m", &[12.0, 13.0]),
+                    ("Collective pitch at ¾ radius, deg", &[10.0, 15.0]),
+                    ("Tip path tilted aft, deg", &[2.0, -3.0]),
+                    ("Rotor speed, rpm", &[600.0]),
+                ],
+            ),
+        ];
+        let flight = flight("flight.mcap", outputs());
+        for (figure, expected) in expected {
+            let panels = stack(figure, &[&flight]).panels;
+            assert_eq!(panels.len(), expected.len());
+            for (panel, (title, values)) in panels.iter().zip(expected) {
+                let points: Vec<_> = panel.curves.iter().map(|curve| curve.points[0]).collect();
+                assert_eq!((&*panel.title, points.len()), (*title, values.len()));
+                for ([time_s, drawn], value) in points.into_iter().zip(*values) {
+                    assert!((time_s - 0.02).abs() < 1e-9, "{title}: at {time_s} s");
+                    assert!((drawn - value).abs() < 1e-9, "{title}: {drawn} for {value}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn below_each_quantity_of_two_flights_is_the_second_less_the_first() {
+        let faster = Outputs { rotor_speed_radps: 20.2 * PI, ..outputs() };
+        let (a, b) = (flight("a.mcap", outputs()), flight("b.mcap", faster));
+        let panels = stack(Figure::Rotors, &[&a, &b]).panels;
+        let titles: Vec<_> = panels.iter().skip(1).step_by(2).map(|panel| &*panel.title).collect();
+        assert_eq!(
+            titles,
+            [
+                "b.mcap less a.mcap, kN; the same",
+                "b.mcap less a.mcap, kN·m; the same",
+                "b.mcap less a.mcap, deg; the same",
+                "b.mcap less a.mcap, deg; the same",
+                "b.mcap less a.mcap, rpm; largest 6.00 at 0.02 s",
+            ]
+        );
+        let [at_s, apart] = panels[9].curves[0].points[0];
+        assert!((at_s - 0.02).abs() < 1e-9 && (apart - 6.0).abs() < 1e-9, "{apart} at {at_s} s");
     }
 }
