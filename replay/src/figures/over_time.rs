@@ -350,7 +350,8 @@ mod tests {
 
     #[test]
     fn every_quantity_is_drawn_in_the_unit_of_its_title() {
-        let expected: [(Figure, &[(&str, &[f64])]); 4] = [
+        type Panels = &'static [(&'static str, &'static [f64])];
+        let expected: [(Figure, Panels); 4] = [
             (
                 Figure::Profile,
                 &[
