@@ -223,3 +223,116 @@ fn wind(world: &World) -> ([f64; 2], String) {
     }
     ([v.norm(), from_deg], words)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::{Arc, Mutex};
+
+    use engine::Outputs;
+    use engine::fcc::scas::Saturation;
+    use engine::frames::Vec3;
+    use engine::outputs::Validity;
+
+    use super::*;
+    use crate::{Identity, Setup};
+
+    /// What is told of these worlds, one a tick from tick 0 on.
+    fn told(worlds: &[World]) -> Vec<(u64, FlightEvent, String)> {
+        let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15");
+        let file = tempfile::tempfile().expect("a file");
+        let (setup, identity) = (Setup::default(), Identity::new());
+        let initial = State::default();
+        let mut writer =
+            FlightWriter::create(file, &setup, &identity, &aircraft, "", &initial).expect("a log");
+        let heard: Arc<Mutex<Vec<_>>> = Arc::default();
+        let hears = heard.clone();
+        writer.tell(Box::new(move |tick, what, _, words| {
+            hears.lock().expect("one thread").push((tick, what, words.to_string()));
+        }));
+        let mut detector = EventDetector::new(&initial, &aircraft.envelope.airframe);
+        for (tick, world) in (0..).zip(worlds) {
+            let inputs = InputsRecord { tick, world: *world, ..InputsRecord::default() };
+            detector.inputs(&mut writer, &inputs).expect("written");
+        }
+        std::mem::take(&mut *heard.lock().expect("one thread"))
+    }
+
+    #[test]
+    fn a_gust_is_told_once_when_its_time_has_come() {
+        let gust = World {
+            gust_mps: Vec3::new(1.0, -2.0, -6.0),
+            gust_s: 2.0,
+            gust_start_tick: 3,
+            ..World::default()
+        };
+        let words = "gust begins: 1.0 m/s north, -2.0 m/s east, 6.0 m/s up, over 2.0 s".to_string();
+        let begins = |tick| (tick, FlightEvent::Gust, words.clone());
+        assert_eq!(told(&[gust; 8]), [begins(3)]);
+        // The same one again is another one; one whose time has come before it was known begins at once.
+        let again = World { gust_start_tick: 5, ..gust };
+        let worlds = [[gust; 5], [again; 5]].concat();
+        assert_eq!(told(&worlds), [begins(3), begins(5)]);
+        let known_late = [[World::default(); 6], [gust; 6]].concat();
+        assert_eq!(told(&known_late), [begins(6)]);
+        // A gust of no time, or of no speed, is none.
+        assert_eq!(told(&[World { gust_s: 0.0, ..gust }; 8]), []);
+        assert_eq!(told(&[World { gust_mps: Vec3::default(), ..gust }; 8]), []);
+    }
+
+    #[test]
+    fn wind_and_turbulence_are_told_when_they_change() {
+        let calm = World::default();
+        // 10 m/s are 36 km an hour, 19.4 nautical miles of 1852 m; a wind is called by where it is from.
+        let west = World { wind_mps: Vec3::new(0.0, 10.0, 0.0), ..calm };
+        let rising = World { wind_mps: Vec3::new(10.0, 0.0, -1.5), ..calm };
+        let rough = World { turbulence_mps: 1.5, ..rising };
+        let said = told(&[calm, west, west, rising, rough, rough, calm]);
+        let expected = [
+            (1, FlightEvent::Wind, "wind: from 270 deg, 19.4 kt"),
+            (3, FlightEvent::Wind, "wind: from 180 deg, 19.4 kt, 1.5 m/s up"),
+            (4, FlightEvent::Turbulence, "turbulence: 1.5 m/s, vertical intensity"),
+            (6, FlightEvent::Wind, "wind: calm"),
+            (6, FlightEvent::Turbulence, "turbulence: 0.0 m/s, vertical intensity"),
+        ];
+        assert_eq!(said, expected.map(|(tick, what, words)| (tick, what, words.to_string())));
+    }
+
+    #[test]
+    fn what_failed_what_was_mended_and_what_still_fails_is_told_where_there_is_any() {
+        let (yaw, governor, none) = (Failures::SCAS_YAW, Failures::GOVERNOR, Failures::empty());
+        assert_eq!(failures(none, yaw | governor), "failed: SCAS yaw, governor");
+        assert_eq!(failures(yaw | governor, none), "mended: SCAS yaw, governor");
+        assert_eq!(failures(yaw, yaw | governor), "failed: governor; still failed: SCAS yaw");
+        assert_eq!(failures(yaw | governor, yaw), "mended: governor; still failed: SCAS yaw");
+        assert_eq!(failures(yaw, governor), "failed: governor; mended: SCAS yaw");
+        assert_eq!(failures(yaw, yaw), "still failed: SCAS yaw");
+    }
+
+    #[test]
+    fn what_is_observed_of_a_touchdown_is_the_sink_downwards_and_the_speed_over_the_ground() {
+        let mut outputs = Outputs { validity: Validity::HULL, ..Outputs::default() };
+        // Three, four, five.
+        let v = &mut outputs.velocity_mps;
+        (v.x, v.y, v.z) = (3.0, -4.0, 0.75);
+        outputs.scas.saturated = Saturation::YAW;
+        let in_the_air = Observed::of(&outputs);
+        assert!((in_the_air.sink_mps - 0.75).abs() < 1e-12);
+        assert!((in_the_air.ground_speed_mps - 5.0).abs() < 1e-12);
+        // An event has the sink first.
+        let [sink_mps, speed_mps] = in_the_air.measured();
+        assert!((sink_mps - 0.75).abs() < 1e-12 && (speed_mps - 5.0).abs() < 1e-12);
+        assert_eq!((in_the_air.validity, in_the_air.saturated), (Validity::HULL, Saturation::YAW));
+        assert!(!in_the_air.on_ground);
+        // One wheel is enough.
+        let wheels: [fn(&mut Outputs) -> &mut f64; 3] = [
+            |outputs| &mut outputs.landing_gear.nose.push_n,
+            |outputs| &mut outputs.landing_gear.main.left.push_n,
+            |outputs| &mut outputs.landing_gear.main.right.push_n,
+        ];
+        for push_n in wheels {
+            let mut landed = outputs;
+            *push_n(&mut landed) = 0.1;
+            assert!(Observed::of(&landed).on_ground);
+        }
+    }
+}

@@ -245,3 +245,76 @@ fn name_of(path: &Path, reader: &FlightReader) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     reader.recovered_from().map_or(name.clone(), |earlier| format!("{name}, from {earlier}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use engine::inputs::World;
+    use engine::{Inputs, State, step};
+
+    use super::*;
+    use crate::compact::FlightModel;
+    use crate::records::{FlightEvent, InputsRecord};
+
+    fn flown_by(_: &Setup) -> Result<FlightModel, LogError> {
+        let aircraft = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15");
+        Ok(FlightModel { aircraft, world: World::default() })
+    }
+
+    /// Ten ticks; each says in words when it begins, as other programs' messages may be ahead, and when it
+    /// has ended. Nobody closed it.
+    fn never_closed(log: &Path) -> Setup {
+        let (setup, identity) = (Setup::default(), Identity::new().with("commit", "0123456789"));
+        let aircraft = flown_by(&setup).expect("an aircraft").aircraft;
+        let new = std::fs::File::create_new(log).expect("a file");
+        let mut state = State::default();
+        let mut writer =
+            FlightWriter::create(new, &setup, &identity, &aircraft, "", &state).expect("a log");
+        for tick in 0..10 {
+            let said = format!("tick {} begins", tick + 1);
+            writer.flight_event(tick + 1, FlightEvent::Phase, 0, [0.0; 2], &said).expect("written");
+            writer.inputs(&InputsRecord { tick, ..InputsRecord::default() }).expect("written");
+            let (flown, outputs) =
+                step(&aircraft, &state, &Inputs { events: &[], world: World::default() });
+            state = flown;
+            writer.state(&state).expect("written");
+            writer.view(&outputs, state.plant.attitude).expect("written");
+            let said = format!("tick {} has ended", tick + 1);
+            writer.flight_event(tick + 1, FlightEvent::Phase, 1, [0.0; 2], &said).expect("written");
+        }
+        writer.flush().expect("written");
+        setup
+    }
+
+    #[test]
+    fn what_belongs_to_the_last_tick_that_is_kept_is_kept_and_what_is_of_later_ones_is_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (broken, fixed) = (folder.path().join("cut.mcap"), folder.path().join("fixed.mcap"));
+        let setup = never_closed(&broken);
+        let file = std::fs::File::create_new(&fixed).expect("a file");
+        let mut writer = FlightWriter::begin(file, &setup, &Identity::new()).expect("a log");
+        let witness = Witness::of(&setup, flown_by).expect("an aircraft");
+        // As if tick 6 were the first bad one.
+        let mut recovery = Recovery { tick: 5, ..Recovery::default() };
+        let messages = Messages::open(&broken, OpenOptions::default()).expect("a log");
+        copy(messages, &mut writer, witness, &mut recovery).expect("copied");
+        writer.finish().expect("closed");
+
+        let mut reader = open(&fixed, OpenOptions::default()).expect("a log");
+        while reader.next_tick().expect("whole ticks").is_some() {}
+        assert_eq!((reader.last_tick(), reader.ending()), (5, Some(&Ending::Closed)));
+        let told: Vec<_> = reader.log_lines.iter().map(|line| line.words.clone()).collect();
+        let of = |tick| [format!("tick {tick} begins"), format!("tick {tick} has ended")];
+        assert_eq!(told, (1..=5).flat_map(of).collect::<Vec<_>>());
+        // Frames are drawn every fifth tick.
+        let mut drawn = Vec::new();
+        let mut messages = Messages::open(&fixed, OpenOptions::default()).expect("a log");
+        while let Some(message) = messages.next_message() {
+            if message.topic() == crate::view::TF {
+                drawn.push(message.time_ns / engine::STEP_NS);
+            }
+        }
+        assert_eq!(drawn, [5]);
+        let Recovery { messages_foreign, messages_unproven, files_foreign, .. } = recovery;
+        assert_eq!((messages_foreign, messages_unproven, files_foreign), (0, 0, 0));
+    }
+}

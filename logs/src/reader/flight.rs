@@ -513,3 +513,6 @@ fn without_digest(data: &[u8], state: &mut Vec<u8>) {
 fn no_flight(why: &str) -> LogError {
     LogError::NotAFlight(format!("an MCAP file, but not a tiltrotor flight: {why}"))
 }
+
+#[cfg(test)]
+mod tests;

@@ -182,3 +182,33 @@ impl Message {
         self.layout().map(|layout| layout.fields(&self.data))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_is_our_writers_when_its_times_and_number_are_those_of_its_tick() {
+        // Tick 10 is 10 times 4 ms.
+        let ours = MessageHeader {
+            channel_id: 3,
+            sequence: 10,
+            log_time: 40_000_000,
+            publish_time: 40_000_000,
+        };
+        let is_stamped = |header, tick| {
+            let (channel, data) = (Arc::default(), Vec::new());
+            Message { channel, time_ns: ours.log_time, data, header }.is_stamped(tick)
+        };
+        assert!(is_stamped(ours, 10) && !is_stamped(ours, 11));
+        // On whatever channel it is.
+        assert!(is_stamped(MessageHeader { channel_id: 4, ..ours }, 10));
+        for other in [
+            MessageHeader { sequence: 11, ..ours },
+            MessageHeader { log_time: 40_000_001, ..ours },
+            MessageHeader { publish_time: 39_999_999, ..ours },
+        ] {
+            assert!(!is_stamped(other, 10), "{other:?}");
+        }
+    }
+}
