@@ -153,6 +153,8 @@ fn what_the_engines_cannot_do_is_told_with_how_much_it_would_take() {
         panic!("{failure}");
     };
     assert!(wanted_norm > 1.0 && beyond.report.power_w > beyond.report.available_w);
+    let part = beyond.report.power_w / beyond.report.available_w;
+    assert!((wanted_norm / part - 1.0).abs() < 0.01, "{wanted_norm}, by the report {part}");
     assert!(matches!(
         trim(&xv15, &Target { airspeed_mps: -1.0, ..target }),
         Err(Failure::Senseless(_))
@@ -195,9 +197,14 @@ fn what_cannot_be_flown_names_the_limit_and_another_way() {
         ),
     ] {
         let failure = trim(&xv15, &target).unwrap_err();
-        let Failure::Beyond { limit: told, wanted_norm, .. } = &failure else {
+        let Failure::Beyond { limit: told, wanted_norm, trim } = &failure else {
             panic!("{failure}")
         };
+        let engine_w = trim.state.plant.engines.left.power_w;
+        if limit == Limit::IdlePower {
+            let idle_w = xv15.engines.idle_power_norm * trim.outputs.engines.available_w;
+            assert!((wanted_norm / (engine_w / idle_w) - 1.0).abs() < 1e-3, "{wanted_norm}");
+        }
         assert!(*told == limit && norm.contains(wanted_norm), "{told:?} {wanted_norm}");
         assert!(failure.to_string().contains(words), "{failure}");
     }
