@@ -52,3 +52,6 @@ pub struct Copied {
     /// Whether the copy is the file that was compacted, byte for byte; `None` when it is not known.
     pub same_file: Option<bool>,
 }
+
+#[cfg(test)]
+mod tests;
