@@ -114,3 +114,68 @@ impl OutputsCheck {
 pub(crate) fn are_todays(reader: &FlightReader) -> bool {
     reader.differences().iter().all(|(topic, _)| *topic != OUTPUTS)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs::File;
+    use std::path::Path;
+
+    use super::*;
+
+    /// Of a tick, with this fuel.
+    fn outputs(tick: u64, fuel_kg: f64) -> Outputs {
+        Outputs { tick, fuel_kg, ..Outputs::default() }
+    }
+
+    #[test]
+    fn other_fields_of_other_channels_say_nothing_of_the_outputs() {
+        // A log of a version whose channels had other fields, the outputs too.
+        let log = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/corpus/model-3.mcap");
+        for keep_outputs in [false, true] {
+            let mut reader =
+                FlightReader::read(File::open(&log).expect("the corpus")).expect("a log");
+            assert!(are_todays(&reader), "nothing was read");
+            reader.keep_outputs = keep_outputs;
+            while reader.next_tick().expect("whole ticks").is_some() {}
+            assert!(!reader.has_todays_state());
+            // Those that nobody read are not known to differ.
+            assert_eq!(are_todays(&reader), !keep_outputs);
+        }
+    }
+
+    #[test]
+    fn the_first_recorded_outputs_that_are_not_those_computed_are_told_with_both_values() {
+        let mut check = OutputsCheck::new().expect("recordable");
+        // They are recorded every tenth tick.
+        assert_eq!(check.every_ticks, 10);
+        check.computed(&outputs(5, 1.0));
+        check.computed(&outputs(10, 1.0));
+        check.recorded(&[outputs(5, 2.0), outputs(10, 1.0)]).expect("compared");
+        assert_eq!(check.first, None, "the one is not looked at, and the other is the same");
+        // What has not been computed yet waits.
+        check.recorded(&[outputs(20, 3.0)]).expect("compared");
+        assert_eq!(check.first, None);
+        check.computed(&outputs(20, 1.0));
+        check.computed(&outputs(30, 1.0));
+        check.recorded(&[outputs(20, 3.0), outputs(30, 4.0)]).expect("compared");
+        let told = check.first.expect("found");
+        assert_eq!((told.tick, told.field.as_deref()), (Some(20), Some("fuel_kg")));
+        let words = told.to_string();
+        // Tick 20 is 20 times 4 ms.
+        assert!(words.starts_with("at tick 20 (0.080 s): fuel_kg, recorded 3"), "{words}");
+        assert!(words.contains(" kg, computed now 1") && words.ends_with(" kg"), "{words}");
+    }
+
+    #[test]
+    fn of_outputs_that_are_never_found_in_the_log_the_oldest_are_let_go_of() {
+        let mut check = OutputsCheck::new().expect("recordable");
+        for row in 1..=KEPT as u64 + 1 {
+            check.computed(&outputs(10 * row, 1.0));
+        }
+        assert_eq!(check.computed.len(), KEPT);
+        check.recorded(&[outputs(10, 2.0)]).expect("compared");
+        assert_eq!(check.first, None, "it is too long ago");
+        check.recorded(&[outputs(20, 2.0)]).expect("compared");
+        assert_eq!(check.first.and_then(|told| told.tick), Some(20));
+    }
+}
