@@ -259,3 +259,94 @@ impl Playback {
         Ok(Some(()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs::File;
+
+    use engine::{Inputs, State, step};
+    use logs::records::InputsRecord;
+    use logs::{FlightWriter, Identity, Setup};
+
+    use super::*;
+
+    /// Ticks of the log.
+    const TICKS: u64 = 12;
+
+    /// A flight in which nobody touches anything.
+    fn flown(log: &Path) {
+        let setup = Setup {
+            aircraft_toml: aircraft::XV15.into(),
+            cockpit_toml: aircraft::PILOT_MAP.into(),
+            scenario_toml: aircraft::DEFAULT_SCENARIO.into(),
+        };
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).expect("the XV-15");
+        let (file, identity) = (File::create_new(log).expect("a file"), Identity::new());
+        let mut state = State::default();
+        let mut writer =
+            FlightWriter::create(file, &setup, &identity, &xv15, "", &state).expect("a log");
+        for tick in 0..TICKS {
+            writer.inputs(&InputsRecord { tick, ..InputsRecord::default() }).expect("written");
+            let inputs = Inputs { events: &[], world: World::default() };
+            state = step(&xv15, &state, &inputs).0;
+            writer.state(&state).expect("written");
+        }
+        writer.finish().expect("closed");
+    }
+
+    fn obey(playback: &mut Playback, command: Command) {
+        playback.obey(command, &mut |_| ()).expect("it can be reflown");
+    }
+
+    /// Shows so many frames; returns where it stands then.
+    fn frames(playback: &mut Playback, count: u32) -> f64 {
+        for _ in 0..count {
+            playback.frame(&mut |_| ()).expect("it can be reflown");
+        }
+        playback.tick()
+    }
+
+    fn assert_near(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 1e-9, "{found} and not {expected}");
+    }
+
+    #[test]
+    fn a_log_being_shown_says_whether_it_goes_on_how_fast_and_where_it_stands() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let log = folder.path().join("flight.mcap");
+        flown(&log);
+        let mut playback = Playback::open(&log, &ReflyOptions::default(), 0.5).expect("a log");
+        assert!(!playback.is_paused() && !playback.has_ended() && !playback.is_whole());
+        assert_near(playback.speed(), 0.5);
+        assert_near(frames(&mut playback, 4), 2.0);
+        obey(&mut playback, Command::Pause(true));
+        assert!(playback.is_paused());
+        assert_near(frames(&mut playback, 4), 2.0);
+        obey(&mut playback, Command::Pause(false));
+        assert!(!playback.is_paused());
+        assert_near(frames(&mut playback, 1), 2.5);
+        // From between two ticks a step goes to the next one, and it stands still there.
+        obey(&mut playback, Command::Step(1));
+        assert!(playback.is_paused());
+        assert_near(playback.tick(), 3.0);
+        // To a place it goes as before, standing still or not.
+        obey(&mut playback, Command::Seek(5));
+        assert!(playback.is_paused());
+        assert_near(playback.tick(), 5.0);
+        obey(&mut playback, Command::Pause(false));
+        obey(&mut playback, Command::Seek(6));
+        assert!(!playback.is_paused());
+        obey(&mut playback, Command::Speed(2.0));
+        assert_near(playback.speed(), 2.0);
+        assert_near(frames(&mut playback, 2), 10.0);
+        // Whether it is over is known when there is no further tick.
+        assert_near(frames(&mut playback, 1), 12.0);
+        assert!(!playback.has_ended());
+        assert_near(frames(&mut playback, 1), 12.0);
+        assert!(playback.has_ended() && playback.is_whole(), "every tick was flown once");
+        obey(&mut playback, Command::Seek(4));
+        assert!(!playback.has_ended() && !playback.is_whole());
+        frames(&mut playback, 10);
+        assert!(playback.has_ended() && !playback.is_whole(), "some were flown twice");
+    }
+}
