@@ -26,6 +26,24 @@ fn a_mirrored_flight_is_the_mirrored_state_to_the_bit() {
     }
 }
 
+/// Gusts from the left are those from the right of the image, and so is what the air remembers of them.
+#[test]
+fn turbulence_in_a_mirror_is_the_mirrored_turbulence_to_the_bit() {
+    let xv15 = xv15();
+    let world =
+        World { wind_mps: Vec3::new(-8.0, 3.0, 0.5), turbulence_mps: 4.0, ..World::default() };
+    let inputs = Inputs { events: &[], world };
+    let mut state = aloft(&parked(&xv15), 0.5, 60.0).without_negative_zeros();
+    for _ in 0..2 * TICKS_PER_S {
+        let next = step(&xv15, &state, &inputs).0;
+        let image = step_in_the_mirror(&xv15, &state, &inputs);
+        assert_same_bits(&image, &next.mirrored(), "the mirrored step");
+        state = next;
+    }
+    let air = state.environment;
+    assert!(air.turbulence_mps.y.abs() > 1e-3 && air.lateral_stage_mps.abs() > 1e-3, "{air:?}");
+}
+
 /// Upside down, rolling left and rolling right are equally far from upright.
 #[test]
 fn a_straight_loop_stays_straight() {
