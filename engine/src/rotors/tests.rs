@@ -323,6 +323,29 @@ fn the_ground_saves_power() {
     assert!(near.power_w / near.thrust_n < far.power_w / far.thrust_n);
 }
 
+/// Every quotient by a speed is one by none here.
+#[test]
+fn a_rotor_at_rest_in_still_air_is_without_load_and_stays_at_rest() {
+    let params = ideal();
+    for collective_rad in [0.0, 20.0 * DEG] {
+        let still = Inputs { rotor_speed_radps: 0.0, ..hovering(collective_rad) };
+        let (state, out) = after(&params, State::default(), &still, 10);
+        for number in [
+            out.thrust_n,
+            out.torque_n_m,
+            out.power_w,
+            state.inflow.mean_mps,
+            state.inflow.aft_mps,
+            state.inflow.right_mps,
+            state.flapping.aft_rad,
+            state.flapping.right_rad,
+        ] {
+            // Not a number is not below it either.
+            assert!(number.abs() < 1e-9, "{number}: {out:?} {state:?}");
+        }
+    }
+}
+
 /// A number from −1 to 1.
 fn random(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
