@@ -1,7 +1,6 @@
 //! What a flight prints when it is over.
 
 use engine::STEP_S;
-use engine::units::degrees;
 use logs::LogError;
 use logs::text::size;
 use recorder::statistics::Durations;
@@ -22,11 +21,6 @@ pub fn refusal(error: &ReplayError) -> String {
 
 /// Latency beyond which CS-FSTD(A) refuses a simulator.
 pub const LATENCY_LIMIT_MS: f64 = 150.0;
-
-/// Heading as a compass shows it, 0..360.
-pub fn compass_deg(heading_rad: f64) -> f64 {
-    degrees(heading_rad).rem_euclid(360.0)
-}
 
 /// Sums up a flight on standard output.
 pub fn landing(landing: &Landing, real_time: bool, out: &str) {

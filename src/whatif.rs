@@ -6,7 +6,7 @@ use aircraft::EditError;
 use anyhow::{Context, Result, anyhow, bail};
 use engine::inputs::{Failures, World};
 use engine::math::{atan2, min, sqrt};
-use engine::units::{degrees, knots};
+use engine::units::{compass_deg, degrees, knots};
 use engine::{Aircraft, Inputs, Outputs, STEP_S, State, step};
 use logs::output::Output;
 use logs::text::{at, size};
@@ -190,7 +190,7 @@ fn list_world(world: World) {
     }
     let speed_mps = sqrt(wind.x * wind.x + wind.y * wind.y);
     if speed_mps > 0.0 {
-        let from_deg = degrees(atan2(-wind.y, -wind.x)).rem_euclid(360.0);
+        let from_deg = compass_deg(atan2(-wind.y, -wind.x));
         say!("  {:<37} wind from {from_deg:03.0} deg, {speed_mps:.1} m/s", "");
     }
     say!("--fail KEY, --mend KEY");

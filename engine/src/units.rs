@@ -11,7 +11,7 @@
 //! exact. Pound-force, slug, horsepower: from those and standard gravity, which is exact too.
 
 use crate::GRAVITY_MPS2;
-use crate::math::{PI, TAU};
+use crate::math::{PI, TAU, wrap_angle};
 
 /// Inch, m.
 pub const INCH_M: f64 = 0.0254;
@@ -56,6 +56,14 @@ pub fn degrees(angle_rad: f64) -> f64 {
     angle_rad * 180.0 / PI
 }
 
+/// A direction as a compass shows it, from 0 to below 360 deg and never −0.
+pub fn compass_deg(heading_rad: f64) -> f64 {
+    let from_north_deg = degrees(wrap_angle(heading_rad));
+    let turned_deg = if from_north_deg < 0.0 { from_north_deg + 360.0 } else { from_north_deg };
+    // A little west of north it rounds to a whole turn.
+    if turned_deg < 360.0 { turned_deg + 0.0 } else { 0.0 }
+}
+
 /// An angle in degrees, rad.
 pub fn radians(angle_deg: f64) -> f64 {
     angle_deg * PI / 180.0
@@ -95,6 +103,7 @@ pub const SI: &[(&str, &str)] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::FRAC_PI_2;
 
     /// By hand from the definitions; the last ones as NIST SP 811 prints them.
     #[test]
@@ -110,6 +119,24 @@ mod tests {
             (60.0 * RPM_RADPS, TAU),
         ] {
             assert!((ours / printed - 1.0).abs() < 1e-15, "{ours} is not {printed}");
+        }
+    }
+
+    #[test]
+    fn a_compass_shows_less_than_a_turn_and_no_negative_north() {
+        for (heading_rad, shown_deg) in [
+            (0.0, 0.0),
+            (-0.0, 0.0),
+            (-1e-20, 0.0),
+            (FRAC_PI_2, 90.0),
+            (PI, 180.0),
+            (-PI, 180.0),
+            (-FRAC_PI_2, 270.0),
+            (5.0 * TAU - FRAC_PI_2, 270.0),
+        ] {
+            let found_deg = compass_deg(heading_rad);
+            assert!((found_deg - shown_deg).abs() < 1e-9, "{heading_rad} rad: {found_deg}");
+            assert!(found_deg.is_sign_positive() && found_deg < 360.0, "{heading_rad} rad");
         }
     }
 

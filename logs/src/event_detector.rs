@@ -10,7 +10,7 @@ use engine::State;
 use engine::envelope::Airframe;
 use engine::inputs::{DeviceEvent, EventKind, Failures, World};
 use engine::math::atan2;
-use engine::units::{degrees, knots};
+use engine::units::{compass_deg, knots};
 
 pub use observed::Observed;
 
@@ -213,7 +213,7 @@ fn failures(was: Failures, now: Failures) -> String {
 fn wind(world: &World) -> ([f64; 2], String) {
     let v = world.wind_mps;
     let speed_mps = engine::math::sqrt(v.x * v.x + v.y * v.y);
-    let from_deg = degrees(atan2(-v.y, -v.x)).rem_euclid(360.0);
+    let from_deg = compass_deg(atan2(-v.y, -v.x));
     if v.norm() <= 0.0 {
         return ([0.0; 2], "wind: calm".into());
     }

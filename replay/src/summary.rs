@@ -6,7 +6,9 @@ use std::fmt;
 use std::path::Path;
 
 use engine::math::{max, sqrt, square};
-use engine::units::{DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RPM_PER_RADPS};
+use engine::units::{
+    DEG_PER_RAD as DEG, FPM_PER_MPS as FPM, KT_PER_MPS as KT, RPM_PER_RADPS, compass_deg,
+};
 use engine::{Outputs, STEP_S, State};
 use logs::view::LogLine;
 
@@ -214,7 +216,7 @@ impl fmt::Display for Summary {
             shown(-at.position_m.z),
             shown(euler.roll_rad * DEG),
             shown(euler.pitch_rad * DEG),
-            (euler.heading_rad * DEG).rem_euclid(360.0),
+            compass_deg(euler.heading_rad),
             at.fuel_kg
         )?;
         write!(f, "digest         {:016x}, ", self.digest)?;

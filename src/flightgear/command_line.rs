@@ -3,7 +3,7 @@
 use std::net::Ipv4Addr;
 use std::path::PathBuf;
 
-use engine::units::{degrees, knots};
+use engine::units::{compass_deg, degrees, knots};
 use flightgear::channel;
 use flightgear::link::{CHANNEL_PORT, GHOST_PORT};
 use flightgear::package::Package;
@@ -105,7 +105,7 @@ impl Request {
                 format!("--altitude={:.0}", start.origin.height_m / engine::units::FOOT_M),
             ]
         };
-        let from_deg = degrees(start.world.wind_from_rad).rem_euclid(360.0);
+        let from_deg = compass_deg(start.world.wind_from_rad);
         place.push(format!("--wind={from_deg:.0}@{:.0}", knots(start.world.wind_mps)));
         place
     }

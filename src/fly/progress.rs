@@ -1,6 +1,7 @@
 //! What is told of a flight while it is flown without the panel.
 
 use engine::STEP_S;
+use engine::units::compass_deg;
 use logs::records::FlightEvent;
 use logs::view::Level;
 use recorder::{Shown, Snapshot, Told};
@@ -18,7 +19,7 @@ pub fn line(now: &Snapshot, phases: &[&str]) -> String {
         now.tick as f64 * STEP_S,
         now.height_m,
         engine::units::knots(now.airspeed_mps),
-        report::compass_deg(now.heading_rad),
+        compass_deg(now.heading_rad),
         now.overruns,
         phase.unwrap_or("")
     )

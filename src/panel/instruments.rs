@@ -4,7 +4,7 @@ use engine::inputs::World;
 use engine::math::{atan2, max, sqrt};
 use engine::outputs::Severity;
 use engine::table::axis::RotorSpeed;
-use engine::units::{FOOT_M, FPM_PER_MPS, RPM_PER_RADPS, degrees, knots};
+use engine::units::{FOOT_M, FPM_PER_MPS, RPM_PER_RADPS, compass_deg, degrees, knots};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -82,7 +82,7 @@ fn numbers(frame: &mut Frame<'_>, area: Rect, look: &Look<'_>) {
         ("airspeed", knots(o.calibrated_airspeed_mps), "kt", Style::new()),
         ("height", o.height_above_ground_m / FOOT_M, "ft", Style::new()),
         ("climb", -o.velocity_mps.z * FPM_PER_MPS, "ft/min", Style::new()),
-        ("heading", degrees(o.euler.heading_rad).rem_euclid(360.0), "deg", Style::new()),
+        ("heading", compass_deg(o.euler.heading_rad), "deg", Style::new()),
         ("nacelles", 90.0 - degrees(o.actuators.mast_tilt_rad.mean()), "deg", Style::new()),
         ("rotors", rotor, &rpm, rotor_style),
         ("torque", torque, "%", torque_style),
@@ -200,7 +200,7 @@ fn wind(world: &World) -> String {
     let mut words = if kt < 0.05 {
         String::from("wind calm")
     } else {
-        let from_deg = degrees(atan2(-v.y, -v.x)).rem_euclid(360.0);
+        let from_deg = compass_deg(atan2(-v.y, -v.x));
         format!("wind {from_deg:03.0}° {kt:.0} kt")
     };
     if world.turbulence_mps > 0.0 {

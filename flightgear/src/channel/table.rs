@@ -6,7 +6,7 @@ use engine::inputs::Failures;
 use engine::math::{atan2, max, sqrt, square, wrap_angle};
 use engine::outputs::{Severity, Validity};
 use engine::units::{
-    FOOT_M, HORSEPOWER_W, HOUR_S, POUND_KG, POUND_N, RPM_PER_RADPS, degrees, knots,
+    FOOT_M, HORSEPOWER_W, HOUR_S, POUND_KG, POUND_N, RPM_PER_RADPS, compass_deg, degrees, knots,
 };
 use engine::{GRAVITY_MPS2, STEP_S};
 
@@ -196,7 +196,7 @@ pub const ROWS: &[Row] = &[
     }),
     one("tiltrotor/air/wind-from-deg", Float, "deg", "where it comes from, true", |s, _| {
         let w = s.outputs.air.wind_mps;
-        if square(w.x) + square(w.y) > 0.0 { compass_deg(atan2(-w.y, -w.x)) } else { 0.0 }
+        if square(w.x) + square(w.y) > 0.0 { shown_compass_deg(atan2(-w.y, -w.x)) } else { 0.0 }
     })
     .around(),
     one("tiltrotor/attitude/roll-deg", Float, "deg", "right wing down", |s, _| {
@@ -207,7 +207,7 @@ pub const ROWS: &[Row] = &[
         degrees(s.outputs.euler.pitch_rad)
     }),
     one("tiltrotor/attitude/heading-deg", Float, "deg", "true, 0 to 360", |s, _| {
-        compass_deg(s.outputs.euler.heading_rad)
+        shown_compass_deg(s.outputs.euler.heading_rad)
     })
     .around(),
     one("tiltrotor/attitude/turn-rate-degps", Float, "deg/s", "heading's rate", |s, _| {
@@ -318,11 +318,10 @@ fn flag(set: bool) -> f64 {
     f64::from(u8::from(set))
 }
 
-fn compass_deg(angle_rad: f64) -> f64 {
-    let angle_deg = degrees(angle_rad);
-    // Also after rounding to single precision, never 360.
-    let turned_deg = if angle_deg < 0.0 { angle_deg + 360.0 } else { angle_deg };
-    if turned_deg as f32 >= 360.0 { 0.0 } else { turned_deg }
+/// Rounded to single precision, too, it is below 360.
+fn shown_compass_deg(angle_rad: f64) -> f64 {
+    let compass_deg = compass_deg(angle_rad);
+    if compass_deg as f32 >= 360.0 { 0.0 } else { compass_deg }
 }
 
 fn controls<'a>(scene: &Scene<'a>) -> &'a PilotControls {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use engine::pair::Pair;
-use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees};
+use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, compass_deg, degrees};
 use engine::{Outputs, STEP_S};
 use rerun::{MediaType, RecordingStream, RecordingStreamResult, TextDocument};
 
@@ -30,7 +30,7 @@ const READ: &[Number] = &[
     number("height AGL, m", 1, |o| o.height_above_ground_m),
     number("airspeed, KCAS", 1, |o| o.calibrated_airspeed_mps * KT_PER_MPS),
     number("climb, ft/min", 0, |o| -o.velocity_mps.z * FPM_PER_MPS),
-    number("heading, °", 0, |o| degrees(o.euler.heading_rad).rem_euclid(360.0)),
+    number("heading, °", 0, |o| compass_deg(o.euler.heading_rad)),
     number("roll, °", 1, |o| degrees(o.euler.roll_rad)),
     number("pitch, °", 1, |o| degrees(o.euler.pitch_rad)),
     number("load, g", 2, |o| o.load_factor),

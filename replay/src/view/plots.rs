@@ -4,7 +4,7 @@ use engine::Outputs;
 use engine::frames::Load;
 use engine::outputs::Loads;
 use engine::pair::Pair;
-use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, degrees};
+use engine::units::{FPM_PER_MPS, KT_PER_MPS, RPM_PER_RADPS, compass_deg, degrees};
 use logs::records::TimingRecord;
 
 use super::parts::PointDrawn;
@@ -185,7 +185,7 @@ pub const GRAPHS: &[Graph<Outputs>] = &[
         line("pitch, up +", ORANGE, |o| degrees(o.euler.pitch_rad)),
     ]),
     Graph::new("plots/heading", "Heading, deg", &[
-        line("heading", VIOLET, |o| degrees(o.euler.heading_rad).rem_euclid(360.0)),
+        line("heading", VIOLET, |o| compass_deg(o.euler.heading_rad)),
     ]),
     Graph::new("plots/rates", "Body rates, deg/s", &[
         line("p, roll", BLUE, |o| degrees(o.angular_rate_radps.x)),

@@ -3,7 +3,7 @@
 use engine::Outputs;
 use engine::frames::{Ned, Vec3};
 use engine::math::{cos, sin};
-use engine::units::degrees;
+use engine::units::compass_deg;
 use rerun::{LineStrips3D, Mesh3D, Points3D, Radius};
 
 use super::columns::point;
@@ -108,7 +108,7 @@ impl StartMark {
         let steps = || (0..3).map(|step| f64::from(step) * Self::STEP_M);
         let outline = rim.iter().map(|[ahead_m, right_m]| self.place(*ahead_m, *right_m)).collect();
         let lines = std::iter::once(outline).chain(steps().map(across));
-        let heading_deg = degrees(self.heading_rad).rem_euclid(360.0);
+        let heading_deg = compass_deg(self.heading_rad);
         let lines = LineStrips3D::new(lines.collect::<Vec<Vec<Point>>>())
             .with_radii([0.2])
             .with_colors([PAINT]);
