@@ -212,3 +212,24 @@ fn a_crash_is_named_in_events_summary_and_report() {
         assert!(profile.contains(words), "{words}");
     }
 }
+
+#[test]
+fn a_report_begins_with_what_was_flown() {
+    let out = folder("figures_flown");
+    let log = out.join("flight.mcap");
+    hover(&log, "2");
+    tiltrotor(&["report", text(&log)]).ends(OK);
+    let whole = read(&out.join("flight.html"));
+    // A part is told as what it is.
+    let page = out.join("part.html");
+    let part = ["--from", "0.5", "--until", "1.5", "--out", text(&page)];
+    tiltrotor(&[&["report", text(&log)], &part[..]].concat());
+    let part = read(&page);
+    for (page, words) in [(whole, "XV-15: 2.0 s of flight, "), (part, "XV-15: 1.0 s of flight, ")] {
+        let sentence = page.split_once(words).map(|(_, sentence)| sentence).expect(words);
+        let sentence = sentence.split('<').next().unwrap_or_default();
+        // On its wheels: nowhere, and as high as it stands.
+        assert!(sentence.starts_with("0 m over the ground, up to "), "{sentence}");
+        assert!(sentence.trim_end().ends_with(" above it and 0 kt true airspeed."), "{sentence}");
+    }
+}

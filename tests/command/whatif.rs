@@ -115,6 +115,37 @@ fn the_files_of_a_log_are_listed_and_printed() {
 }
 
 #[test]
+fn the_fields_of_a_log_are_listed_by_channel_and_by_name() {
+    let list = |wanted: &[&str]| {
+        tiltrotor(&[&["log", "fields", text(flight())], wanted].concat()).ends(OK)
+    };
+    // Six seconds are 1500 ticks; how one kept time is eleven numbers.
+    let timing = list(&["--channel", "timing"]);
+    assert!(timing.out.starts_with("/timing: 1500 messages of 11 numbers\n"), "{timing}");
+    assert_eq!(timing.out.lines().count(), 12, "{timing}");
+    for glob in ["/timing", "tim*", "/timin?"] {
+        assert_eq!(list(&["--channel", glob]).out, timing.out, "{glob}");
+    }
+    let late = list(&["--field", "late_*"]);
+    assert_eq!(late.out.lines().count(), 2, "{late}");
+    assert_eq!(late.out.lines().next(), timing.out.lines().next());
+    late.says("  late_ns ").says("Woke up later than wanted by.");
+    let both = list(&["--channel", "timing", "--channel", "log"]);
+    assert!(both.out.contains(timing.out.as_str()), "{both}");
+    both.says("/log: ").says(" messages of text or for viewers").never_says("/state");
+    let all = list(&[]);
+    assert!(all.out.contains(timing.out.as_str()), "{all}");
+    // The state of the beginning, and one after every tick.
+    all.says("/state: 1501 messages of ").says("/log: ").says("/inputs: 1500 messages of ");
+    let json = list(&["--channel", "timing", "--format", "json"]);
+    assert_eq!(json.out.matches("\"channel\": \"/timing\"").count(), 11, "{json}");
+    for nothing in [["--channel", "timings"], ["--field", "latte_ns"]] {
+        let none = tiltrotor(&[&["log", "fields", text(flight())], &nothing[..]].concat());
+        none.refused().says("no such channel or field in it; its channels are ").says("/timing");
+    }
+}
+
+#[test]
 fn the_version_names_the_commit() {
     tiltrotor(&["--version"]).ends(OK).says(concat!(env!("CARGO_PKG_VERSION"), " (commit "));
 }
