@@ -250,3 +250,48 @@ fn listed(names: &[String]) -> String {
         more => format!("{told} and {more} more"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_input_is_told_with_the_tick_that_it_led_to() {
+        let told = |kind, moves: &str| {
+            let (device, code, value) = (2, 0x10, -5);
+            let event =
+                DeviceEvent { tick: 249, kind, device, code, value, ..DeviceEvent::default() };
+            InputChange::Device { event, moves: moves.into() }.to_string()
+        };
+        let axis = EventKind::Axis as u64;
+        assert_eq!(told(axis, ""), "device 2 axis 0x10 = -5, for tick 250 (1.000 s)");
+        let aft = "device 2 axis 0x10 = -5 (stick aft), for tick 250 (1.000 s)";
+        assert_eq!(told(axis, "stick aft"), aft);
+        // Of a kind that nobody knows.
+        assert_eq!(told(u64::MAX, ""), "device 2 event 0x10 = -5, for tick 250 (1.000 s)");
+        let world = InputChange::World {
+            tick: 3000,
+            path: "world.wind_mps.x".into(),
+            unit: "m/s".into(),
+            from: Value::F64(0.5),
+            to: Value::F64(-5.25),
+        };
+        let blown = "world.wind_mps.x from 0.5 m/s to -5.25 m/s, for tick 3001 (12.004 s)";
+        assert_eq!(world.to_string(), blown);
+    }
+
+    #[test]
+    fn one_differs_and_several_differ() {
+        assert_eq!(differing(0, "field"), "0 fields differ");
+        assert_eq!(differing(1, "field"), "1 field differs");
+        assert_eq!(differing(2, "more field"), "2 more fields differ");
+    }
+
+    #[test]
+    fn eight_names_are_told_and_the_rest_counted() {
+        let names: Vec<String> = ('a'..='j').map(String::from).collect();
+        assert_eq!(listed(&names[..2]), "a, b");
+        assert_eq!(listed(&names[..8]), "a, b, c, d, e, f, g, h");
+        assert_eq!(listed(&names), "a, b, c, d, e, f, g, h and 2 more");
+    }
+}
