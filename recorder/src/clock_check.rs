@@ -62,3 +62,38 @@ impl ClockCheck {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two thousand ticks that woke at once, but for as many as were late by that much.
+    fn tried(late: u64, late_ms: f64, refused: &[&str]) -> ClockCheck {
+        let mut durations = Durations::new();
+        (0..2000 - late).for_each(|_| durations.add(1000));
+        (0..late).for_each(|_| durations.add((late_ms * 1e6) as u64));
+        let refused = refused.iter().map(ToString::to_string).collect();
+        ClockCheck { late: durations, refused }
+    }
+
+    #[test]
+    fn the_verdict_is_by_the_latest_of_all_and_by_one_of_a_thousand() {
+        // Half a millisecond is well held, a tick of 4 ms is the limit.
+        for (late, late_ms, words, misses) in [
+            (3, 0.49, "real time held: ", false),
+            (3, 0.51, "real time held roughly: ", false),
+            // A single one is beyond p99.9.
+            (1, 3.9, "real time held: ", false),
+            (3, 3.9, "real time held roughly: ", false),
+            (1, 4.1, "real time NOT HELD: ", true),
+        ] {
+            let check = tried(late, late_ms, &[]);
+            let verdict = check.verdict();
+            assert!(verdict.starts_with(words), "{late} by {late_ms} ms: {verdict}");
+            assert_eq!(check.misses_ticks(), misses, "{late} by {late_ms} ms");
+            assert!(!verdict.contains("not all was granted"), "{verdict}");
+        }
+        let refused = tried(0, 0.0, &["no real-time scheduling"]).verdict();
+        assert!(refused.ends_with("late when tried; not all was granted"), "{refused}");
+    }
+}
