@@ -148,6 +148,7 @@ mod tests {
                 "  ABS_HAT0X      trim left, below -50 % of its half travel, when it is not pressed",
             ]
         );
+        #[cfg(feature = "sticks")]
         assert_eq!(
             moved(&map.device[0]),
             "stick aft, collective, pedal right, pedal right, collective, marker, trim aft, trim left"
