@@ -306,6 +306,7 @@ mod tests {
         };
         // 10 kt are 5.144 m/s.
         assert_eq!(of(0.0, 0.0, 0.0), "wind calm");
+        assert_eq!(of(-5.144, 0.0, 0.0), "wind 000° 10 kt");
         assert_eq!(of(0.0, -5.144, 0.0), "wind 090° 10 kt");
         assert_eq!(of(5.144, 0.0, 0.0), "wind 180° 10 kt");
         assert_eq!(of(0.0, 10.289, 1.5), "wind 270° 20 kt, turbulence 1.5 m/s");

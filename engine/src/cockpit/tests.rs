@@ -425,8 +425,14 @@ fn the_trim_is_where_the_stick_was_let_go_and_the_middle_takes_it_over() {
     ];
     let let_go = update(&map, &State::default(), &held);
     assert!(near(let_go.stick_aft_norm, 0.6) && near(let_go.force_trim.stick_aft_norm, 0.6));
+    // The hand still holds it aft of its middle: twice as far it would be, had it taken over.
+    let first = waiting(&let_go).next().expect("the stick waits");
+    assert!(near(first.at_norm, 0.6) && !first.up, "{first:?}");
+    assert!(near(first.hardware_norm.unwrap(), 1.0), "{first:?}");
     let back = update(&map, &let_go, &[event(EventKind::Axis, 1, 130)]);
     assert!(near(back.stick_aft_norm, 0.6) && waiting(&back).count() == 1);
+    let nearer = waiting(&back).next().expect("the stick waits");
+    assert!(near(nearer.hardware_norm.unwrap(), 0.9), "{nearer:?}");
     let centre = update(&map, &back, &[event(EventKind::Axis, 1, 100)]);
     assert!(near(centre.stick_aft_norm, 0.6) && waiting(&centre).count() == 0);
     let pushed = update(&map, &centre, &[event(EventKind::Axis, 1, 70)]);

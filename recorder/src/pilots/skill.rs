@@ -383,7 +383,7 @@ impl Skill {
         )
     }
 
-    /// Takes the lever back from where the masts' torque or the rotors' speed is beyond its limit.
+    /// Takes the lever back from where the masts' torque is beyond its limit.
     fn watch_torque(&mut self, seen: &Outputs, torque_n_m_max: f64) {
         let torque = seen.engines.torque_n_m.sum() * 0.5 / torque_n_m_max;
         let step_per_s =
