@@ -65,22 +65,22 @@ pub fn codes_in(wanted: &Device, found: &Found) -> usize {
 }
 
 /// The number of the map's device that a device is and that is `free`: the one that it fits best, and
-/// that has most of what it has; of equals the first.
+/// that has most of what it has; of equals the first. A device that has nothing of what the map's one uses is
+/// another node of the same name.
 pub fn number_of(map: &Params, found: &Found, free: impl Fn(usize) -> bool) -> Option<usize> {
     let mut best = None;
     for (number, wanted) in map.device.iter().enumerate() {
-        let Some(fit) = fits(wanted, found).filter(|_| free(number)) else { continue };
-        let rank = (fit, has_all_axes(wanted, found), codes_in(wanted, found));
+        let codes = codes_in(wanted, found);
+        let is_another = codes == 0 && !(wanted.axis.is_empty() && wanted.button.is_empty());
+        let Some(fit) = fits(wanted, found).filter(|_| free(number) && !is_another) else {
+            continue;
+        };
+        let rank = (fit, has_all_axes(wanted, found), codes);
         if best.is_none_or(|(best, _)| rank > best) {
             best = Some((rank, number));
         }
     }
-    // A device that has nothing of what the map uses is another node of the same name.
-    let has_any = |number: &usize| {
-        let wanted = &map.device[*number];
-        (wanted.axis.is_empty() && wanted.button.is_empty()) || codes_in(wanted, found) > 0
-    };
-    best.map(|(_, number)| number).filter(has_any)
+    best.map(|(_, number)| number)
 }
 
 /// Whether it has every axis that the map uses.
@@ -158,14 +158,20 @@ mod tests {
     /// A gamepad's touchpad and motion sensor have its name, too.
     #[test]
     fn a_device_that_has_nothing_of_what_the_map_uses_is_not_the_one_of_its_name() {
-        let map = map("[[device]]\nname = \"Wireless Controller\"\n\
+        let uses = map("[[device]]\nname = \"Wireless Controller\"\n\
                        axis = [{ code = \"ABS_Y\", control = \"stick_aft\" }]\n\
                        button = [{ code = 304, control = \"marker\" }]");
-        let number = |found: &Found| number_of(&map, found, |_| true);
+        let number = |found: &Found| number_of(&uses, found, |_| true);
         assert_eq!(number(&pad()), None);
         assert_eq!(number(&with(&[0, 2], &[305])), None);
         assert_eq!(number(&with(&[1], &[])), Some(0));
         assert_eq!(number(&with(&[], &[304])), Some(0));
+        // Nor does it hide one that fits less well, but is it.
+        let two = map(
+            "[[device]]\nname = \"Wireless Controller\"\naxis = [{ code = \"ABS_X\", control = \"stick_right\" }]\n\
+             [[device]]\nname = \"Wireless\"\naxis = [{ code = \"ABS_Y\", control = \"stick_aft\" }]",
+        );
+        assert_eq!(number_of(&two, &with(&[1], &[]), |_| true), Some(1));
         // Where the map uses nothing of it, nothing can be missing.
         let bare = Params { device: vec![named("Wireless Controller")] };
         assert_eq!(number_of(&bare, &pad(), |_| true), Some(0));
