@@ -1,4 +1,4 @@
-"""Changes the code in small ways, one at a time, and sees whether the tests notice: mutants.py COUNT SEED COMMIT.
+"""Changes the code in small ways, one at a time, and sees whether the tests notice: mutants.py [COUNT [SEED [COMMIT]]].
 
 The changes are drawn from what `cargo mutants --list` finds in COMMIT, and made to HEAD, whose tests they meet: a
 sample stays the same while tests are added. Works in a checkout of its own, target/mutants/tree; what became of each
@@ -9,6 +9,7 @@ adds `why`. Ends with 1 when less than 92 % of the changes that compile are noti
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import random
@@ -131,13 +132,17 @@ def drawn(tree: Path, count: int, seed: int, commit: str) -> list[dict]:
 
 
 def main() -> int:
-    again = "--again" in sys.argv
-    words = [word for word in sys.argv[1:] if word != "--again"]
-    count, seed = int(words[0]), int(words[1])
+    parser = argparse.ArgumentParser(description="Would the tests notice small changes to the code?")
+    parser.add_argument("count", nargs="?", type=int, default=200)
+    parser.add_argument("seed", nargs="?", type=int, default=1)
+    parser.add_argument("commit", nargs="?", default="HEAD")
+    parser.add_argument("--again", action="store_true", help="try what was missed once more")
+    args = parser.parse_args()
+    count, seed = args.count, args.seed
     WORK.mkdir(parents=True, exist_ok=True)
     commit, head = (
         subprocess.run(["git", "rev-parse", "--short", of], capture_output=True, text=True, check=True).stdout.strip()
-        for of in (words[2], "HEAD")
+        for of in (args.commit, "HEAD")
     )
     tree = WORK.resolve() / "tree"
     if not tree.exists():
@@ -166,7 +171,7 @@ def main() -> int:
     for change in sorted(sample, key=lambda change: change["package"]):
         name = change["name"]
         known = fates.get(name)
-        if known and not (again and known["fate"] == "missed"):
+        if known and not (args.again and known["fate"] == "missed"):
             continue
         begun = time.monotonic()
         what = {"name": name, **fate(tree, change)}

@@ -15,6 +15,4 @@ if ! cargo mutants --version >/dev/null 2>&1; then
     echo "skipped: needs cargo-mutants (cargo install cargo-mutants --locked)"
     exit 77
 fi
-again=()
-[ "${!#}" != --again ] || { again=(--again) && set -- "${@:1:$#-1}"; }
-exec python3 tests/mutants.py "${1:-200}" "${2:-1}" "${3:-HEAD}" "${again[@]}"
+exec python3 tests/mutants.py "$@"
