@@ -1,7 +1,9 @@
 //! Same arguments, same bits; a mirrored flight is the mirrored state.
 
+use engine::controls::Commands;
 use engine::frames::{Attitude, Euler, Vec3};
-use engine::inputs::{DeviceEvent, World};
+use engine::inputs::{DeviceEvent, Failures, InputLevel, World};
+use engine::pair::Pair;
 use engine::symmetry::Mirror;
 use engine::{Inputs, Outputs, State, observe, step};
 
@@ -26,22 +28,50 @@ fn a_mirrored_flight_is_the_mirrored_state_to_the_bit() {
     }
 }
 
-/// Gusts from the left are those from the right of the image, and so is what the air remembers of them.
+/// Gusts from the left are those from the right of the image, and so is what the air remembers of them; commands
+/// from outside for the left actuators are those for the right ones.
 #[test]
-fn turbulence_in_a_mirror_is_the_mirrored_turbulence_to_the_bit() {
+fn a_world_in_a_mirror_does_what_the_world_does_to_the_bit() {
     let xv15 = xv15();
-    let world =
-        World { wind_mps: Vec3::new(-8.0, 3.0, 0.5), turbulence_mps: 4.0, ..World::default() };
-    let inputs = Inputs { events: &[], world };
-    let mut state = aloft(&parked(&xv15), 0.5, 60.0).without_negative_zeros();
-    for _ in 0..2 * TICKS_PER_S {
-        let next = step(&xv15, &state, &inputs).0;
-        let image = step_in_the_mirror(&xv15, &state, &inputs);
-        assert_same_bits(&image, &next.mirrored(), "the mirrored step");
-        state = next;
+    let gusty = World {
+        wind_mps: Vec3::new(-8.0, 3.0, 0.5),
+        gust_mps: Vec3::new(1.0, -4.0, 2.0),
+        gust_s: 1.0,
+        gust_start_tick: 100,
+        turbulence_mps: 4.0,
+        ..World::default()
+    };
+    let commanded = World {
+        input_level: InputLevel::Actuators as u64,
+        commands: Commands {
+            collective_rad: Pair { left: 0.30, right: 0.32 },
+            cyclic_forward_rad: Pair { left: 0.01, right: -0.02 },
+            cyclic_outboard_rad: Pair { left: -0.01, right: 0.015 },
+            elevator_rad: 0.02,
+            flaperon_rad: Pair { left: 0.1, right: -0.05 },
+            rudder_right_rad: 0.1,
+            brake_norm: Pair { left: 0.2, right: 0.7 },
+            lever_norm: 0.6,
+            ..Commands::default()
+        },
+        failures: Failures::ENGINE_LEFT,
+        ..World::default()
+    };
+    for world in [gusty, commanded] {
+        let inputs = Inputs { events: &[], world };
+        let mut state = aloft(&parked(&xv15), 0.5, 60.0).without_negative_zeros();
+        for _ in 0..2 * TICKS_PER_S {
+            let next = step(&xv15, &state, &inputs).0;
+            let image = step_in_the_mirror(&xv15, &state, &inputs);
+            assert_same_bits(&image, &next.mirrored(), "the mirrored step");
+            state = next;
+        }
+        let air = state.environment;
+        let stirred = air.turbulence_mps.y.abs() > 1e-3 && air.lateral_stage_mps.abs() > 1e-3;
+        assert_eq!(stirred, world == gusty, "{air:?}");
+        let to = state.actuators.collective_rad;
+        assert_eq!(to.right - to.left > 0.01, world == commanded, "{to:?}");
     }
-    let air = state.environment;
-    assert!(air.turbulence_mps.y.abs() > 1e-3 && air.lateral_stage_mps.abs() > 1e-3, "{air:?}");
 }
 
 /// Upside down, rolling left and rolling right are equally far from upright.
