@@ -408,3 +408,37 @@ fn every_validity_bit_is_set_by_what_it_is_there_for() {
     let slow = Validity::ROTOR_SPEED | Validity::TUMBLING | Validity::HEIGHT | Validity::SPEED;
     assert!(!bits(&xv15, &near).intersects(slow));
 }
+
+/// What is exactly at a limit is within it, and the least bit more is beyond.
+#[test]
+fn a_limit_of_the_model_is_the_last_number_that_is_within_it() {
+    let xv15 = xv15();
+    let mut state = aloft(&parked(&xv15), 0.3, 20.0);
+    state.plant.angular_rate_radps = Vec3::new(0.1, 0.2, 0.3);
+    let (next, seen) = step(&xv15, &state, &Inputs { events: &[], world: World::default() });
+    let plant = next.plant;
+    for (flag, value, least, limit) in [
+        (Validity::SPEED, seen.airspeed_mps, false, (|model| &mut model.airspeed_mps_max) as Limit),
+        (Validity::HEIGHT, seen.place.height_m, false, |model| &mut model.height_m_max),
+        (Validity::TUMBLING, plant.angular_rate_radps.norm(), false, |model| {
+            &mut model.angular_rate_radps_max
+        }),
+        (Validity::ROTOR_SPEED, plant.rotor_speed_radps, false, |model| {
+            &mut model.rotor_speed_radps_max
+        }),
+        (Validity::ROTOR_SPEED, plant.rotor_speed_radps, true, |model| {
+            &mut model.rotor_speed_radps_min
+        }),
+    ] {
+        let with = |limit_is: f64| {
+            let narrower = xv15.clone().with(|all| *limit(&mut all.envelope.model) = limit_is);
+            bits(&narrower, &state)
+        };
+        assert_eq!(with(value), Validity::empty(), "{flag}, at its limit");
+        let passed = if least { value.next_up() } else { value.next_down() };
+        assert_eq!(with(passed), flag, "{flag}, just beyond its limit");
+    }
+}
+
+/// Which limit of the model.
+type Limit = fn(&mut engine::envelope::Model) -> &mut f64;
