@@ -158,6 +158,42 @@ fn failures_warnings_and_lamps_are_told() {
 }
 
 #[test]
+fn lamps_of_torque_rotor_speed_and_gear_come_on_beyond_their_limits_and_not_at_them() {
+    let (xv15, world) = (xv15(), World::default());
+    let lamp = |name: &str, outputs: &Outputs| {
+        let shown = shown(outputs, &world, Lamps::default());
+        shown.get(&format!("tiltrotor/lamp/{name}")).expect("there") > 0.5
+    };
+    // One mast is enough.
+    let torque = |part: f64| {
+        let mut outputs = Outputs::default();
+        outputs.rotors.right.torque_n_m = part * xv15.engines.torque_n_m_max;
+        lamp("torque-limit", &outputs)
+    };
+    assert_eq!([0.999, 1.0, 1.001].map(torque), [false, false, true]);
+
+    let least_radps = xv15.envelope.rotors.underspeed_norm * xv15.fcc.governor.rotor_speed_radps[0];
+    let slow = |part: f64| {
+        let rotor_speed_radps = part * least_radps;
+        lamp("low-rotor-rpm", &Outputs { rotor_speed_radps, ..Outputs::default() })
+    };
+    assert_eq!([0.999, 1.0, 1.001].map(slow), [true, false, false]);
+
+    // Low, slow and not all out: any of the three less, and nothing is missing.
+    let gear = |height_ft: f64, airspeed_kt: f64, extended_norm: f64| {
+        let mut outputs = Outputs {
+            height_above_ground_m: height_ft * engine::units::FOOT_M + 3.0,
+            calibrated_airspeed_mps: engine::units::mps_of_knots(airspeed_kt),
+            ..Outputs::default()
+        };
+        outputs.actuators.gear_extension_norm = extended_norm;
+        lamp("gear-warning", &outputs)
+    };
+    assert!(gear(100.0, 60.0, 0.9) && gear(180.0, 99.0, 0.0));
+    assert!(!gear(220.0, 60.0, 0.0) && !gear(100.0, 101.0, 0.0) && !gear(100.0, 60.0, 1.0));
+}
+
+#[test]
 fn what_is_no_packet_is_refused() {
     let good = shown(&Outputs::default(), &World::default(), Lamps::default());
     let with = |at: usize, new: &[u8]| {
