@@ -27,6 +27,7 @@ use engine::math::{PI, clamp, cos, max, sin, square};
 
 mod columns;
 mod found;
+mod limit;
 mod newton;
 mod problem;
 mod report;
@@ -35,7 +36,8 @@ mod settle;
 mod target;
 
 pub use columns::{COLUMNS, Column};
-pub use found::{Failure, Limit, Trim};
+pub use found::{Failure, Trim};
+pub use limit::Limit;
 use problem::{Problem, unlimited};
 pub use report::Report;
 pub use residual::{Equation, Residual};

@@ -4,7 +4,7 @@ use engine::math::max;
 use engine::pair::Pair;
 use engine::{Aircraft, Outputs, State, engines};
 
-use super::found::Limit;
+use super::limit::Limit;
 
 /// A trim by its numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
