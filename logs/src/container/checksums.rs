@@ -168,6 +168,21 @@ impl Fingerprint {
 mod tests {
     use super::*;
 
+    /// XXH3-128 without a seed, as xxHash's own tools print it.
+    #[test]
+    fn a_fingerprint_is_the_published_hash_of_all_bytes_whatever_parts_they_come_in() {
+        let of = |parts: &[&[u8]]| {
+            let mut all = Fingerprint::default();
+            parts.iter().for_each(|part| all.add(part));
+            (all.bytes, all.xxh3())
+        };
+        assert_eq!(of(&[]), (0, 0x99aa_06d3_0147_98d8_6001_c324_468d_497f));
+        let abc = (3, 0x06b0_5ab6_733a_6185_78af_5f94_892f_3950);
+        assert_eq!(of(&[b"abc"]), abc);
+        assert_eq!(of(&[b"a", b"", b"bc"]), abc);
+        assert_ne!(of(&[b"acb"]), abc);
+    }
+
     fn header(channel_id: u16) -> MessageHeader {
         MessageHeader { channel_id, sequence: 1, log_time: 2, publish_time: 2 }
     }
