@@ -88,6 +88,17 @@ fn a_fin_at_full_rudder_has_its_printed_side_force() {
     near(side_n(&right), expected_n, "full right rudder, N");
     near(side_n(&left), -expected_n, "full left rudder, N");
 
+    // A rudder turns the fin's drag by .27 of its angle, .24 less of that for every 15 degrees beyond 15; table 6-III
+    // has .0071 at 0, .014 at 4 and .024 at 8 degrees.
+    let forward_n = |outputs: &Outputs| outputs.loads.vertical_stabilizers.sum().force_n.x;
+    for (rudder_deg, turned_deg, drag) in [
+        (10.0, 2.7, 0.0071 + 2.7 / 4.0 * 0.0069),
+        (20.0, 0.27 * 20.0 * (1.0 - 0.24 / 3.0), 0.014 + 0.968 / 4.0 * 0.010),
+    ] {
+        let times = forward_n(&fins(rudder_deg)) / forward_n(&middle);
+        near(times, drag / 0.0071, &format!("drag of a fin turned by {turned_deg} deg"));
+    }
+
     // From the centre of gravity to station 570.
     let arm_m = 570.0 * INCH_M - right.balance.cg_m.x;
     let turning_n_m = right.loads.vertical_stabilizers.sum().moment_n_m.z;

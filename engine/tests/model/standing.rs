@@ -1,6 +1,7 @@
 //! The aircraft on its wheels.
 
 use engine::frames::Vec3;
+use engine::state::Geodetic;
 use engine::step;
 
 use crate::flying::{self, TICKS_PER_S, calm, parked, xv15};
@@ -22,6 +23,24 @@ fn parked_with_brakes_it_stands_still_for_a_minute() {
     assert!(moved_m < 1e-3, "{:.3} mm", 1e3 * moved_m);
     assert!(fastest_mps < 1e-3, "{:.3} mm/s", 1e3 * fastest_mps);
     assert!(turned_radps < 1e-4, "{turned_radps:.6} rad/s");
+}
+
+/// Where the start is, is where the aircraft stands: place, heading, fuel, ground.
+#[test]
+fn on_its_wheels_it_stands_where_the_start_says() {
+    let xv15 = xv15();
+    let origin = Geodetic { latitude_rad: 0.5, longitude_rad: -1.25, height_m: 300.0 };
+    let start = aircraft::start("default.toml", aircraft::DEFAULT_SCENARIO).unwrap();
+    let start = engine::start::Start { origin, heading_rad: 1.0, ..start };
+    let state = start.on_wheels(&xv15);
+    let seen = step(&xv15, &state, &calm()).1;
+    let off_rad = (seen.place.latitude_rad - origin.latitude_rad).abs()
+        + (seen.place.longitude_rad - origin.longitude_rad).abs();
+    assert!(off_rad < 1e-9, "{:?}", seen.place);
+    let height_m = seen.place.height_m - origin.height_m;
+    assert!((1.0..3.0).contains(&height_m), "the centre of gravity stands {height_m} m high");
+    assert!((seen.euler.heading_rad - 1.0).abs() < 1e-4, "{:?}", seen.euler);
+    assert!((seen.fuel_kg - start.fuel_aboard_kg(&xv15)).abs() < 0.1, "{} kg", seen.fuel_kg);
 }
 
 /// What sampling may add in a tick as the tyres swing back: they hold 400 J at 10 rad/s, of which
