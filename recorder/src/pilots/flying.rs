@@ -399,13 +399,74 @@ fn bearing(seen: &Outputs, spot_m: Vec3<Ned>) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use engine::inputs::World;
+
     use super::*;
+
+    fn pilot(task: &str) -> Pilot {
+        let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap();
+        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
+        Pilot::named(task, &map, &xv15).unwrap()
+    }
+
+    /// .12 m/s down for every m/s of airspeed, 2.5 to 6; 5 while it is more than 40 m too high and flies faster than
+    /// .8 of the 28 m/s at which it leaves its own wake.
+    #[test]
+    fn who_stops_sinks_by_the_airspeed_and_steeply_from_high_above() {
+        for (high_m, airspeed_mps, sink_mps) in [
+            (100.0, 30.0, 5.0),
+            (100.0, 22.0, 2.64),
+            (30.0, 30.0, 3.6),
+            (30.0, 10.0, 2.5),
+            (30.0, 80.0, 6.0),
+        ] {
+            let mut pilot = pilot("hover");
+            let seen = Outputs {
+                height_above_ground_m: 20.0 + high_m,
+                airspeed_mps,
+                ..Outputs::default()
+            };
+            pilot.stop(&seen, Some(20.0));
+            let found_mps = pilot.order.sink_mps_max;
+            assert!(
+                (found_mps - sink_mps).abs() < 1e-9,
+                "{high_m} m, {airspeed_mps} m/s: {found_mps}"
+            );
+        }
+    }
+
+    /// From 15 m and 20 m/s on, both of them.
+    #[test]
+    fn the_wheels_come_up_when_it_climbs_away_and_not_before() {
+        for (height_m, airspeed_mps, down) in
+            [(14.0, 25.0, true), (16.0, 19.0, true), (16.0, 21.0, false), (14.0, 10.0, true)]
+        {
+            let mut pilot = pilot("hover");
+            pilot.order.gear_down = true;
+            pilot.order.airspeed_mps = airspeed_mps;
+            let seen = Outputs {
+                height_above_ground_m: height_m,
+                calibrated_airspeed_mps: airspeed_mps,
+                ..Outputs::default()
+            };
+            let mut context = TickContext {
+                tick: 0,
+                events: &mut Vec::new(),
+                world: &mut World::default(),
+                phase: &mut (0, ""),
+                done: &mut false,
+                restart: &mut None,
+                save: &mut false,
+                gave_up: &mut None,
+            };
+            pilot.give_orders(Phase::Accelerate { height_m: 30.0 }, &seen, 0.0, &mut context);
+            assert_eq!(pilot.order.gear_down, down, "{height_m} m, {airspeed_mps} m/s");
+        }
+    }
 
     #[test]
     fn who_is_to_hover_keeps_to_the_spot_and_who_flies_on_lets_go_of_it() {
-        let map = aircraft::cockpit("pilot.toml", aircraft::PILOT_MAP).unwrap();
-        let xv15 = aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap();
-        let mut pilot = Pilot::named("hover", &map, &xv15).unwrap();
+        let mut pilot = pilot("hover");
         // At the origin, heading east: what is north of it is on the left.
         let mut seen = Outputs::default();
         seen.euler.heading_rad = FRAC_PI_2;
