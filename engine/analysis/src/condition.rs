@@ -370,6 +370,56 @@ mod tests {
 
     use super::*;
 
+    fn xv15() -> Aircraft {
+        aircraft::aircraft("xv15.toml", aircraft::XV15).unwrap()
+    }
+
+    /// 589 rpm as a helicopter, 458 or 517 with the nacelles down.
+    #[test]
+    fn a_rotor_speed_is_one_that_the_governor_has_at_these_nacelles() {
+        let xv15 = xv15();
+        let select = |rpm, nacelle_deg| rpm_select(&xv15, rpm, nacelle_deg);
+        for (rpm, nacelle_deg, number) in [
+            (None, 90.0, 0),
+            (None, 1.0, 0),
+            (None, 0.5, 2),
+            (Some(589.0), 90.0, 0),
+            (Some(589.9), 0.0, 0),
+            (Some(516.5), 0.0, 1),
+            (Some(458.0), 0.9, 2),
+        ] {
+            assert_eq!(select(rpm, nacelle_deg).ok(), Some(number), "{rpm:?} at {nacelle_deg} deg");
+        }
+        assert!(matches!(select(Some(517.0), 1.0), Err(Fault::RpmOfTheAeroplane { .. })));
+        for wanted in [591.0, 500.0, 0.0] {
+            let Err(Fault::Rpm { offered, .. }) = select(Some(wanted), 0.0) else {
+                panic!("{wanted} rpm")
+            };
+            let printed = [589.0, 517.0, 458.0];
+            assert!(offered.iter().zip(printed).all(|(a, b)| (a - b).abs() < 1e-6), "{offered:?}");
+        }
+    }
+
+    #[test]
+    fn a_flap_setting_is_a_detent_or_the_usual_one_at_these_nacelles() {
+        let xv15 = xv15();
+        let detent = |flap_deg, nacelle_deg| flap_detent(&xv15, flap_deg, nacelle_deg);
+        for (flap_deg, nacelle_deg, number) in [
+            (Some(0.0), 90.0, 0),
+            (Some(20.4), 90.0, 1),
+            (Some(39.6), 0.0, 2),
+            (Some(75.0), 0.0, 3),
+            (None, 90.0, 2),
+            (None, 75.0, 1),
+            (None, 15.1, 1),
+            (None, 15.0, 0),
+        ] {
+            let found = detent(flap_deg, nacelle_deg).ok();
+            assert_eq!(found, Some(number), "{flap_deg:?} at {nacelle_deg} deg");
+        }
+        assert!(matches!(detent(Some(30.0), 90.0), Err(Fault::Flap { .. })));
+    }
+
     #[test]
     fn what_is_no_number_of_a_flight_is_refused_with_its_unit() {
         for (condition, words) in [

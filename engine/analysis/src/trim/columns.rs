@@ -83,3 +83,93 @@ impl Column {
         format!("{}_{unit}", self.name.to_lowercase().replace(' ', "_"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use engine::pair::Pair;
+    use engine::{Outputs, State};
+
+    use super::super::Report;
+    use super::*;
+
+    /// A trim of which every number is one or a few of the units in which it is told.
+    fn told_in_whole_units() -> Trim {
+        let degrees = |whole: f64| whole / 57.295_779_513_082_32;
+        let mut state = State::default();
+        state.actuators.mast_tilt_rad = Pair::both(degrees(30.0));
+        let outputs = Outputs { airspeed_mps: 100.0 * 1852.0 / 3600.0, ..Outputs::default() };
+        let report = Report {
+            pitch_rad: degrees(2.0),
+            roll_rad: degrees(3.0),
+            alpha_rad: degrees(4.0),
+            beta_rad: degrees(5.0),
+            climb_mps: 1000.0 * 0.3048 / 60.0,
+            stick_from_aft_m: 6.0 * 0.0254,
+            stick_forward_norm: 0.07,
+            stick_right_m: 8.0 * 0.0254,
+            pedal_right_m: 9.0 * 0.0254,
+            lever_norm: 0.1,
+            collective_rad: degrees(11.0),
+            cyclic_forward_rad: degrees(12.0),
+            elevator_rad: degrees(13.0),
+            thrust_n: Pair { left: 14.0 * 4.448_221_615_26, right: 15.0 * 4.448_221_615_26 },
+            power_w: 16e3,
+            available_w: 17e3,
+            torque_n_m: 18e3,
+            fuel_flow_kg_per_s: 19.0 * 0.453_592_37 / 3600.0,
+            download_n: 20.0 * 4.448_221_615_26,
+            ..Report::default()
+        };
+        Trim { state, outputs, report }
+    }
+
+    #[test]
+    fn every_number_is_told_in_the_unit_beside_it() {
+        let trim = told_in_whole_units();
+        for (name, expected) in [
+            ("speed_kt", 100.0),
+            ("nacelle_deg", 60.0),
+            ("climb_fpm", 1000.0),
+            ("pitch_deg", 2.0),
+            ("roll_deg", 3.0),
+            ("alpha_deg", 4.0),
+            ("beta_deg", 5.0),
+            ("stick_in", 6.0),
+            ("stick_forward_percent", 7.0),
+            ("stick_right_in", 8.0),
+            ("pedal_right_in", 9.0),
+            ("lever_percent", 10.0),
+            ("collective_deg", 11.0),
+            // From three quarters of the radius to the root.
+            (
+                "at_the_root_deg",
+                11.0 + ROOT_FROM_THREE_QUARTERS_RAD * 180.0 / core::f64::consts::PI,
+            ),
+            ("cyclic_b1_deg", 12.0),
+            ("elevator_deg", 13.0),
+            ("thrust_left_lbf", 14.0),
+            ("thrust_right_lbf", 15.0),
+            ("power_kw", 16.0),
+            ("available_kw", 17.0),
+            ("mast_torque_kn_m", 18.0),
+            ("fuel_lb_per_h", 19.0),
+            ("download_lbf", 20.0),
+        ] {
+            let column = COLUMNS.iter().find(|column| column.key() == name);
+            let found = column.map(|column| (column.of)(&trim)).expect(name);
+            assert!((found - expected).abs() < 1e-6 * expected, "{name}: {found}, not {expected}");
+        }
+    }
+
+    #[test]
+    fn nothing_below_zero_is_nothing() {
+        let mut trim = told_in_whole_units();
+        let roll = &COLUMNS[4];
+        for (roll_deg, told) in
+            [(-0.001, "0.00"), (0.0, "0.00"), (-0.01, "-0.01"), (-10.0, "-10.00")]
+        {
+            trim.report.roll_rad = roll_deg / DEG;
+            assert_eq!(roll.value(&trim), told);
+        }
+    }
+}
