@@ -330,6 +330,21 @@ mod tests {
         (a - b).abs() < 1e-12
     }
 
+    /// Half the sine of the angle about the axis, where it is a quotient and where it is a series, and where the one
+    /// goes over into the other.
+    #[test]
+    fn a_turn_however_small_has_the_angle_that_was_asked_for() {
+        for angle_rad in [1e-9, 1e-5, 0.999e-4, 1.001e-4, 1e-3, 1.0, 3.0] {
+            let turned = Attitude::default().turned_by(Vec3::new(0.0, angle_rad, 0.0));
+            let (s, c) = sin_cos(0.5 * angle_rad);
+            let off = (turned.y - s).abs() + (turned.w - c).abs();
+            assert!(
+                off < 4e-16 * (1.0 + c) && (turned.y / s - 1.0).abs() < 1e-15,
+                "{angle_rad}: {off}"
+            );
+        }
+    }
+
     #[test]
     fn nose_up_lifts_the_body_x_axis() {
         let attitude = Attitude::from_euler(Euler { pitch_rad: 0.3, ..Euler::default() });
