@@ -394,3 +394,33 @@ fn no_flight_makes_it_infinite() {
         }
     }
 }
+
+/// Air that nothing drives any more comes to rest by its apparent mass, 128/75π of the disc's density times radius
+/// for the mean and 64/45π for what is uneven: in hover at v0 by 2·v0 and v0 a second of it.
+#[test]
+fn air_in_motion_comes_to_rest_as_fast_as_its_apparent_mass_lets_it() {
+    use core::f64::consts::PI;
+    let (radius_m, mean_mps) = (3.81, 12.0);
+    let flow = elements::Flow {
+        forward_mps: 0.0,
+        right_mps: 0.0,
+        along_mps: 0.0,
+        omega_radps: OMEGA,
+        density_kg_per_m3: DENSITY,
+        sound_speed_mps: 340.0,
+    };
+    let nothing = inflow::DiscLoads { thrust_n: 0.0, aft_n_m: 0.0, right_n_m: 0.0 };
+    let state = inflow::State { mean_mps, aft_mps: 0.5, right_mps: -0.25 };
+    let through = inflow::disc_flow(&state, &flow);
+    let next = inflow::advance(&state, &through, &flow, &nothing, radius_m);
+    let left = |rate_per_s: f64| 1.0 / (1.0 + rate_per_s * crate::STEP_S);
+    let mean = left(2.0 * mean_mps * 75.0 * PI / (128.0 * radius_m));
+    let uneven = left(mean_mps * 45.0 * PI / (64.0 * radius_m));
+    for (found, before, part) in [
+        (next.mean_mps, mean_mps, mean),
+        (next.aft_mps, 0.5, uneven),
+        (next.right_mps, -0.25, uneven),
+    ] {
+        assert!((found / before - part).abs() < 1e-6, "{found} after {before}: {part} of it");
+    }
+}
