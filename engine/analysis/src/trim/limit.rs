@@ -41,7 +41,10 @@ impl Limit {
             Self::IdlePower => {
                 ("the rotors would drive the engines".into(), "less descent, or more flap")
             }
-            Self::MastTorque => at_its_limit("mast torque"),
+            Self::MastTorque => (
+                format!("mast torque at {percent:.0} % of its limit"),
+                "less lever, weight, speed, climb or turn, or a faster rotor",
+            ),
             Self::LongitudinalStick => at_its_limit("longitudinal stick"),
             Self::LateralStick => at_its_limit("lateral stick"),
             Self::Pedals => at_its_limit("pedals"),
